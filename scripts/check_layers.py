@@ -50,7 +50,7 @@ PUBLIC = {
     MODELS: """Implicit_mixed_mesh_domain_3 Labeled_polyhedral_mixed_mesh_domain_3 Mixed_mesh_regions_3 Mixed_mesh_sheet_3
         Polyhedral_mixed_mesh_domain_3 Polyhedral_mixed_mesh_region_3""",
     SERVICES: "certify_mesh extract_subdomains fidelity resect surface_distance validation",
-    ENTRY: "fit_mixed_mesh_to_surface make_mixed_mesh_3 optimize_mixed_mesh_3",
+    ENTRY: "fit_mixed_mesh_to_surface make_mixed_mesh_3 optimize_mixed_mesh_3 simplify_mixed_mesh_3",
 }
 GROUPS = {name: group for group, names in PUBLIC.items() for name in names.split()}
 

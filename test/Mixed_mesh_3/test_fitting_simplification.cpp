@@ -205,9 +205,10 @@ void simplify_at_random(const Mesh& start, unsigned seed, Counts& counts)
   const std::vector<std::uint8_t> is_on_boundary(boundary.size(), 1);
   const std::vector<double> weights(boundary.size(), 1);
   const Aspect_ratio_quality_3 quality;
-  internal::Mesh_simplifier<Aspect_ratio_quality_3> simplifier(working, quality, boundary, is_on_boundary,
-                                                               weights, targets, defects, features,
-                                                               boundary.size() / 2);
+  internal::Mesh_simplifier<Aspect_ratio_quality_3> simplifier(working, quality,
+                                                               internal::vertices_of_faces(boundary),
+                                                               is_on_boundary, weights, targets, defects,
+                                                               features, boundary.size() / 2);
   while(simplifier(1e6, 1e6, false, 1, [] { return true; }) == 1) {
     ++counts.removed;
     Mesh mesh = start;
@@ -306,9 +307,10 @@ void test_interfaces_stay()
     const std::vector<double> weights(faces.size(), 1);
     const internal::Sharp_features none;
     const Aspect_ratio_quality_3 quality;
-    internal::Mesh_simplifier<Aspect_ratio_quality_3> simplifier(working, quality, faces, is_on_boundary,
-                                                                 weights, targets, defects, none,
-                                                                 faces.size() / 2);
+    internal::Mesh_simplifier<Aspect_ratio_quality_3> simplifier(working, quality,
+                                                                 internal::vertices_of_faces(faces),
+                                                                 is_on_boundary, weights, targets, defects,
+                                                                 none, faces.size() / 2);
     const auto before = topology_of_subdomains(start, number);
     while(simplifier(1e6, 1e6, false, 1, [] { return true; }) == 1) {
       ++removed;
@@ -361,6 +363,13 @@ Followed_features features_of_cube(const CGAL::Polyhedral_mixed_mesh_domain_3& d
   return followed;
 }
 
+bool simplify(Core_mesh& mesh, Followed_features& followed, const internal::Any_surface& surface,
+              std::size_t number, double& bound)
+{
+  return internal::simplify(mesh, followed, surface, Aspect_ratio_quality_3(), number, 0, 0.1, bound,
+                            {true, 0.1, 3.2, true}, [] { return true; });
+}
+
 // A cube keeps all of its sharp edges, and its volume: its faces are flat. Meshes of fewer vertices have no
 // vertex that those of more do not have.
 void test_cube()
@@ -375,7 +384,7 @@ void test_cube()
   for(std::size_t n : {900, 600, 300, 250}) {
     Core_mesh mesh = internal::as_core_mesh(start), again = mesh;
     Followed_features followed = features_of_cube(domain, start), followed_again = followed;
-    BOOST_TEST(internal::simplify(mesh, followed, surface, n, 0, 0.1, 0.1, bound, 3.2, [] { return true; }));
+    BOOST_TEST(simplify(mesh, followed, surface, n, bound));
     BOOST_TEST_EQ(mesh.number_of_vertices(), n);
     BOOST_TEST(find_defects(mesh).none());
     BOOST_TEST_LE(std::abs(volume(mesh) - 1), 1e-12);
@@ -388,14 +397,13 @@ void test_cube()
       points.insert({p.x(), p.y(), p.z()});
     BOOST_TEST(last.empty() || std::includes(last.begin(), last.end(), points.begin(), points.end()));
     last = points;
-    BOOST_TEST(
-      internal::simplify(again, followed_again, surface, n, 0, 0.1, 0.1, bound, 3.2, [] { return true; }));
+    BOOST_TEST(simplify(again, followed_again, surface, n, bound));
     BOOST_TEST(again.points() == mesh.points());
     BOOST_TEST(followed_again.strata.edges == followed.strata.edges);
   }
   Core_mesh mesh = internal::as_core_mesh(start);
   Followed_features followed = features_of_cube(domain, start);
-  BOOST_TEST(!internal::simplify(mesh, followed, surface, 3, 0, 0.1, 0.1, bound, 3.2, [] { return true; }));
+  BOOST_TEST(!simplify(mesh, followed, surface, 3, bound));
   BOOST_TEST(find_defects(mesh).none());
 }
 

@@ -25,6 +25,7 @@ on the whole element, whatever the cost.
 \cgalHasModelsEnd
 
 \sa `CGAL::optimize_mixed_mesh_3()`
+\sa `CGAL::simplify_mixed_mesh_3()`
 */
 class MixedMeshQuality_3
 {

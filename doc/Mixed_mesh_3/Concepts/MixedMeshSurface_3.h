@@ -8,7 +8,7 @@
 \cgalConcept
 
 The concept `MixedMeshSurface_3` describes where the boundary of a mesh is to be: all queries that
-`CGAL::optimize_mixed_mesh_3()` and `CGAL::fit_mixed_mesh_to_surface()` need.
+`CGAL::optimize_mixed_mesh_3()`, `CGAL::simplify_mixed_mesh_3()` and `CGAL::fit_mixed_mesh_to_surface()` need.
 
 \cgalHasModelsBegin
 \cgalHasModels{CGAL::Polyhedral_mixed_mesh_domain_3}
@@ -18,6 +18,7 @@ The concept `MixedMeshSurface_3` describes where the boundary of a mesh is to be
 
 \sa `MixedMeshDomain_3`
 \sa `CGAL::optimize_mixed_mesh_3()`
+\sa `CGAL::simplify_mixed_mesh_3()`
 \sa `CGAL::fit_mixed_mesh_to_surface()`
 */
 class MixedMeshSurface_3

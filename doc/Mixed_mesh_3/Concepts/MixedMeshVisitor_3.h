@@ -26,7 +26,8 @@ nested, and each stage ends. All calls come from the thread that called `CGAL::m
 A model that derives from `CGAL::Mixed_meshes_3::Default_visitor` has all members, and redefines those it
 needs.
 
-`CGAL::optimize_mixed_mesh_3()` and `CGAL::fit_mixed_mesh_to_surface()` call `go_on()` only.
+`CGAL::optimize_mixed_mesh_3()`, `CGAL::simplify_mixed_mesh_3()` and `CGAL::fit_mixed_mesh_to_surface()`
+call `go_on()` only.
 
 A model need not be copyable: pass it as `CGAL::parameters::visitor(std::ref(my_visitor))`. Members need not
 be `const`. The visitor must outlive the call.

@@ -24,6 +24,15 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
+/// The vertices of each face.
+inline std::vector<Face_vertices> vertices_of_faces(const std::vector<Face>& faces)
+{
+  std::vector<Face_vertices> result;
+  for(const Face& face : faces)
+    result.push_back(face.vertices());
+  return result;
+}
+
 /*!
 The edges at which not two triangles of the boundary and of interfaces meet, but more.
 
@@ -61,7 +70,7 @@ public:
   }
 
   Interface_curves(const std::vector<Face>& triangles, std::size_t number_of_vertices)
-    : Interface_curves(vertices_of(triangles), number_of_vertices)
+    : Interface_curves(vertices_of_faces(triangles), number_of_vertices)
   {
   }
 
@@ -95,14 +104,6 @@ public:
   }
 
 private:
-  static std::vector<Face_vertices> vertices_of(const std::vector<Face>& faces)
-  {
-    std::vector<Face_vertices> result;
-    for(const Face& face : faces)
-      result.push_back(face.vertices());
-    return result;
-  }
-
   // \param ends memory for the ends of the link
   void examine(Vertex_index v, const Link& link, Ends& ends)
   {

@@ -18,6 +18,7 @@
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/element_points.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Followed_features.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/find_followed_features.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Optimization_effort.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/optimize_surface.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
@@ -98,7 +99,7 @@ public:
         (std::max)(estimate.tolerated_share_not_arrived,
                    m_has_subdomains ? tolerated_share_on_interfaces : share_not_arrived_tolerated)),
       m_sharp_edges(is_chosen(followed) ? Sharp_edges() : domain.sharp_edges(criteria.sharp_angle())),
-      m_edge_length(m_sharp_edges.edges.empty() ? 1 : mean_edge_length()),
+      m_edge_length(m_sharp_edges.edges.empty() ? 1 : mean_edge_length_of_boundary(mesh)),
       m_features(is_chosen(followed) ? followed->features : Sharp_features(m_sharp_edges, m_edge_length)),
       m_sharp_at_start(is_chosen(followed) ? followed->strata : Sharp_strata()), m_sharp(m_sharp_at_start),
       m_is_held(mesh.number_of_vertices(), 0)
@@ -256,19 +257,6 @@ private:
       else
         hold(fitted.crossing, rings[i]);
     }
-  }
-
-  // Mean edge length of the boundary.
-  double mean_edge_length() const
-  {
-    double sum = 0;
-    int number = 0;
-    for(const Face& face : boundary_faces(m_mesh)) {
-      const Face_vertices& v = face.vertices();
-      for(int i = 0; i < v.size(); ++i, ++number)
-        sum += norm(to_vec3(m_mesh.points()[v[i]]) - to_vec3(m_mesh.points()[v[(i + 1) % v.size()]]));
-    }
-    return sum / number;
   }
 
   void hold(const std::vector<Vertex_index>& vertices, int number_of_rings)

@@ -19,6 +19,7 @@
 #include <CGAL/Mixed_mesh_3/internal/fitting/Surface_projection.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Surface_tolerances.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Vertex_optimizer.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/bound_for_doubles.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/surface_attraction.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/Strata.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
@@ -40,11 +41,10 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// The quality bound of the criteria, slightly reduced: a cost within the reduced bound in doubles is within
-/// the bound exactly. The relative error of the cost of an element near to the default bound is some 1e-13.
+/// The quality bound of the criteria, for costs in doubles.
 inline double bound_for_doubles(const Mixed_mesh_optimization_criteria_3& criteria)
 {
-  return (1 - 1e-10) * criteria.quality_bound();
+  return bound_for_doubles(criteria.quality_bound());
 }
 
 /// The liberties that a run of the optimization takes.

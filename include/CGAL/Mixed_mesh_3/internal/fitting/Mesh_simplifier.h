@@ -116,7 +116,7 @@ class Mesh_simplifier
   std::priority_queue<Entry> m_queue;
   std::size_t m_removed = 0;
   double m_bound = 0, m_distance = 0;
-  bool m_follows_curves = true, m_keeps_region = true;
+  bool m_follows_curves = true, m_keeps_region = true, m_keeps_all_near = false;
 
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   // Shares of the loss: vertices off their places go before all others, those of bad elements before others
@@ -141,7 +141,7 @@ public:
   /// \param defects whether a vertex goes first, to be kept by the caller
   /// \param features sharp edges that the mesh follows, to be kept by the caller
   /// \param number_of_triangles in the end, about
-  Mesh_simplifier(Working_mesh& mesh, const Quality& quality, const std::vector<Face>& boundary,
+  Mesh_simplifier(Working_mesh& mesh, const Quality& quality, const std::vector<Face_vertices>& boundary,
                   const std::vector<std::uint8_t>& is_on_boundary, const std::vector<double>& weights,
                   const std::vector<Vec3>& targets, const std::vector<Vertex_defect>& defects,
                   const Sharp_features& features, std::size_t number_of_triangles)
@@ -157,7 +157,7 @@ public:
         for(Vertex_index v : element)
           m_stays[v] = 1;
     for(std::size_t f = 0; f < boundary.size(); ++f) {
-      const Face_vertices& v = boundary[f].vertices();
+      const Face_vertices& v = boundary[f];
       for(int i = 0; i < 3; ++i) {
         m_quadrics[v[i]].add(targets[v[0]] - m_origin, targets[v[1]] - m_origin, targets[v[2]] - m_origin,
                              weights[f]);
@@ -170,6 +170,11 @@ public:
 
   /// \param weights of the volume around vertices, with a region; those in it have the weight 1
   void set_weights(std::vector<double> weights) { m_weights = std::move(weights); }
+  /// Holds a vertex where it is: others may go into it.
+  void hold(Vertex_index v) { m_stays[v] = 1; }
+  /// Lets the distance hold for all places around a collapse, and not only for those that the vertex which
+  /// goes stands for. A place belongs to one vertex, and has to be near to a face of this one.
+  void keep_all_places_near() { m_keeps_all_near = true; }
   /// Lets vertices in the region, and near it, go as others do.
   void give_up_region() { m_keeps_region = false; }
 
@@ -417,7 +422,46 @@ private:
       });
     };
     return (m_defects[v] == Vertex_defect::PLACE || !turns) && is_near(m_targets[v])
-           && std::all_of(m_places[v].begin(), m_places[v].end(), is_near);
+           && std::all_of(m_places[v].begin(), m_places[v].end(), is_near)
+           && (!m_keeps_all_near || keep_near(v, w));
+  }
+
+  // Whether the places of vertices whose faces change, other than v, stay near to a face of their vertex.
+  bool keep_near(Vertex_index v, Vertex_index w) const
+  {
+    const auto point = [this](Vertex_index u) {
+      const Vec3& q = m_mesh.points[u];
+      return Kernel::Point_3(q[0], q[1], q[2]);
+    };
+    Short_vector<Kernel::Triangle_3> faces;
+    for(Vertex_index u : neighbors_on_boundary(v)) {
+      if(m_places[u].empty())
+        continue;
+      faces.clear();
+      const auto add = [&](const Triangle& t) { faces.emplace_back(point(t[0]), point(t[1]), point(t[2])); };
+      const auto has = [](const Triangle& t, Vertex_index a) {
+        return std::find(t.begin(), t.end(), a) != t.end();
+      };
+      m_boundary.for_each_at(u, [&](const Triangle& t) {
+        if(!has(t, v))
+          add(t);
+      });
+      m_boundary.for_each_at(v, [&](Triangle t) {
+        if(has(t, w) || !(u == w || has(t, u)))
+          return;
+        std::replace(t.begin(), t.end(), v, w);
+        add(t);
+      });
+      const bool are_near = std::all_of(m_places[u].begin(), m_places[u].end(), [&](const Vec3& place) {
+        return std::any_of(faces.begin(), faces.end(), [&](const Kernel::Triangle_3& t) {
+          return CGAL::squared_distance(Kernel::Point_3(place[0], place[1], place[2]), t)
+                 <= m_distance * m_distance;
+        });
+      });
+      if(!are_near)
+        return false;
+    }
+    return true;
   }
 
   // \pre `is_possible(v, w)`

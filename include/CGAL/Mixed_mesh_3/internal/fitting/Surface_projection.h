@@ -95,6 +95,12 @@ public:
     return result;
   }
 
+  /// Whether a vertex of a stratum is where it should be.
+  bool is_there(const Vec3& p, Stratum stratum) const
+  {
+    return norm((*this)(p, stratum) - p) <= accuracy * diagonal();
+  }
+
   /// Whether several threads may ask for points of that stratum at the same time.
   bool is_concurrent(Stratum stratum) const
   {

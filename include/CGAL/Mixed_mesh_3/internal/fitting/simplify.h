@@ -12,7 +12,6 @@
 
 #include <CGAL/license/Mixed_mesh_3.h>
 
-#include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/shell_counts.h>
@@ -82,32 +81,87 @@ inline std::vector<double> weights_of_faces(const Core_mesh& mesh, const Interfa
   return weights;
 }
 
+/// What simplification gives up, in the order of the members, while the mesh has too many vertices.
+struct Simplification_concessions
+{
+  bool region;          ///< that vertices of the region stay
+  double distance;      ///< a smaller distance, for this one
+  double quality_bound; ///< a smaller bound, for one of up to this one
+  bool any_distance;    ///< the distance, altogether; if not, it is kept for all places that vertices have
+                        ///< left, and not only for those that the vertex which goes stands for
+};
+
+/// The triangles of the boundary and of interfaces; quadrilaterals are two triangles each.
+struct Boundary_to_simplify
+{
+  std::vector<Face_vertices> triangles;
+  std::vector<std::uint8_t> is_on_boundary; ///< whether a triangle is on the boundary of the domain
+  std::vector<double> weights;              ///< of the volume at each triangle
+
+  Boundary_to_simplify(const Interface_faces& faces, const Strata& strata,
+                       const std::vector<double>& weights_of_faces)
+  {
+    for(std::size_t f = 0; f < faces.faces.size(); ++f) {
+      const Face_vertices& v = faces.faces[f].vertices();
+      for(int i = 2; i < v.size(); ++i) {
+        triangles.push_back({v[0], v[i - 1], v[i]});
+        is_on_boundary.push_back(strata.is_on_boundary(faces.strata[f]));
+        weights.push_back(weights_of_faces[f]);
+      }
+    }
+  }
+};
+
+/// Holds vertices that no surface of the domain leads: those of sheets, and, if the domain has no labels,
+/// those between subdomains of the mesh.
+template <class Simplifier>
+void hold_vertices_without_surface(const Working_mesh& mesh, const Interface_faces& faces,
+                                   const Strata& strata, bool is_labeled, Simplifier& simplifier)
+{
+  for(std::size_t f = 0; f < faces.faces.size(); ++f)
+    if(strata.is_on_sheet(faces.strata[f]))
+      for(Vertex_index v : faces.faces[f].vertices())
+        simplifier.hold(v);
+  if(is_labeled)
+    return;
+  for(Vertex_index v = 0; v < mesh.points.size(); ++v) {
+    const auto around = mesh.incident[v];
+    if(std::any_of(around.begin(), around.end(), [&](Element_index e) {
+         return mesh.elements[e].attributes.subdomain_index
+                != mesh.elements[around.front()].attributes.subdomain_index;
+       }))
+      simplifier.hold(v);
+  }
+}
+
 /*!
 Removes vertices of a mesh whose boundary, and whose interfaces, are on their surfaces, until it has a given
 number.
 
-What does not suffice is given up in this order: that sharp edges of the mesh stay near to curved ones, that
-vertices of the region stay, a distance that is smaller than the usual one, the quality bound, the distance.
+That sharp edges of the mesh stay near to curved ones is given up first, then the concessions are made.
 
 \param followed sharp features that the mesh follows, which the result follows as well
+\param number_of_vertices 0: as few as the limits allow
 \param radius of the region, for `weights_of_vertices()`; 0: there is none
 \param distance no place that a boundary vertex has left is farther from the boundary
-\param usual_distance that nearly every mesh keeps
 \param quality_bound no new element costs more; becomes a larger one if there would be more vertices otherwise
-\param largest_bound the largest one that it may become
 \return whether the mesh has so few vertices then
 \par Complexity
 Some 60 microseconds for each vertex that is removed
 */
-inline bool simplify(Core_mesh& mesh, Followed_features& followed, const Any_surface& surface,
-                     std::size_t number_of_vertices, double radius, double distance, double usual_distance,
-                     double& quality_bound, double largest_bound, const std::function<bool()>& go_on)
+template <class Quality>
+bool simplify(Core_mesh& mesh, Followed_features& followed, const Any_surface& surface,
+              const Quality& quality, std::size_t number_of_vertices, double radius, double distance,
+              double& quality_bound, const Simplification_concessions& concessions,
+              const std::function<bool()>& go_on)
 {
   // Bounds that are tried, one after the other, so that elements are no flatter than needed.
   constexpr double step_of_bound = 1.25;
+  // Vertices of the start by those of the end, about, where the limits decide: of a ball of 3,000 vertices, a
+  // hundredth of its diameter leaves 330. The result depends on it for shells of different sizes only.
+  constexpr std::size_t expected_ratio = 10;
   Strata strata(surface);
   const Interface_faces faces = strata.sorted_faces(mesh);
-  const Aspect_ratio_quality_3 quality;
   Working_mesh working(mesh, strata.of_vertices(mesh.number_of_vertices(), faces));
   working.set_sharp_strata(followed.strata);
   Surface_projection project(surface, strata);
@@ -115,14 +169,17 @@ inline bool simplify(Core_mesh& mesh, Followed_features& followed, const Any_sur
   const std::vector<Vec3> places = project.places(working);
   const std::vector<Vertex_defect> defects = vertex_defects(working, faces.faces, places, quality,
                                                             quality_bound);
-  const double share = double(number_of_vertices) / double(mesh.number_of_vertices());
-  std::vector<std::uint8_t> is_on_boundary;
-  for(Stratum of_face : faces.strata)
-    is_on_boundary.push_back(strata.is_on_boundary(of_face));
-  const std::vector<double> weights = weights_of_faces(mesh, faces, strata, surface, number_of_vertices);
-  Mesh_simplifier<Aspect_ratio_quality_3> simplifier(working, quality, faces.faces, is_on_boundary, weights,
-                                                     places, defects, followed.features,
-                                                     std::size_t(share * double(faces.faces.size())));
+  const std::size_t expected = number_of_vertices > 0 ? number_of_vertices
+                                                      : mesh.number_of_vertices() / expected_ratio;
+  const double share = double(expected) / double(mesh.number_of_vertices());
+  const Boundary_to_simplify boundary(faces, strata,
+                                      weights_of_faces(mesh, faces, strata, surface, expected));
+  Mesh_simplifier<Quality> simplifier(working, quality, boundary.triangles, boundary.is_on_boundary,
+                                      boundary.weights, places, defects, followed.features,
+                                      std::size_t(share * double(boundary.triangles.size())));
+  hold_vertices_without_surface(working, faces, strata, surface.is_labeled(), simplifier);
+  if(!concessions.any_distance)
+    simplifier.keep_all_places_near();
   const bool has_region = radius > 0;
   if(has_region)
     simplifier.set_weights(weights_of_vertices(working, radius));
@@ -133,17 +190,18 @@ inline bool simplify(Core_mesh& mesh, Followed_features& followed, const Any_sur
   };
   remove(distance, true);
   remove(distance, false);
-  if(has_region) {
+  if(has_region && concessions.region) {
     simplifier.give_up_region();
     remove(distance, false);
   }
-  if(usual_distance > distance)
-    remove(distance = usual_distance, false);
-  while(n > number_of_vertices && quality_bound < largest_bound && go_on()) {
-    quality_bound = (std::min)(step_of_bound * quality_bound, largest_bound);
+  if(concessions.distance > distance)
+    remove(distance = concessions.distance, false);
+  while(n > number_of_vertices && quality_bound < concessions.quality_bound && go_on()) {
+    quality_bound = (std::min)(step_of_bound * quality_bound, concessions.quality_bound);
     remove(distance, false);
   }
-  remove(std::numeric_limits<double>::infinity(), false);
+  if(concessions.any_distance)
+    remove(std::numeric_limits<double>::infinity(), false);
   followed.strata = working.sharp_strata();
   working.store(mesh);
   return n <= number_of_vertices;

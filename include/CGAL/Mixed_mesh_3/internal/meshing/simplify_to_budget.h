@@ -129,8 +129,9 @@ inline bool simplify_and_fit(Meshing_state& s, const Simplification_limits& limi
 {
   const std::size_t number = mesh.number_of_vertices(), n = s.criteria.maximal_number_of_vertices();
   double bound = limits.bound;
-  const bool is_simplified = simplify(mesh, followed, s.root.domain(), goal, s.radius_of_weights(),
-                                      limits.distance, limits.usual_distance, bound, limits.largest_bound,
+  const bool is_simplified = simplify(mesh, followed, s.root.domain(), Aspect_ratio_quality_3(), goal,
+                                      s.radius_of_weights(), limits.distance, bound,
+                                      {true, limits.usual_distance, limits.largest_bound, true},
                                       [&s] { return s.go_on() || s.keeps_mesh_if_stopped(); });
   if(!is_simplified) {
     s.result.number_of_vertices_needed = mesh.number_of_vertices();

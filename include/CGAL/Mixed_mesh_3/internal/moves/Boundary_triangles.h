@@ -15,6 +15,7 @@
 #include <CGAL/Mixed_mesh_3/Face.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Predicates_kernel.h>
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/Interface_curves.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
 
 #include <CGAL/assertions.h>
@@ -53,13 +54,18 @@ public:
   /// \pre the faces are triangles
   Boundary_triangles(const std::vector<Vec3>& positions, const std::vector<Face>& faces,
                      std::size_t number_at_most)
+    : Boundary_triangles(positions, vertices_of_faces(faces), number_at_most)
+  {
+  }
+
+  Boundary_triangles(const std::vector<Vec3>& positions, const std::vector<Face_vertices>& faces,
+                     std::size_t number_at_most)
     : m_at_vertex(positions.size())
   {
     for(const Vec3& p : positions)
       m_points.emplace_back(p[0], p[1], p[2]);
     double doubled_area = 0;
-    for(const Face& face : faces) {
-      const Face_vertices& v = face.vertices();
+    for(const Face_vertices& v : faces) {
       CGAL_precondition(v.size() == 3);
       m_triangles.push_back({v[0], v[1], v[2]});
       doubled_area += norm(cross(positions[v[1]] - positions[v[0]], positions[v[2]] - positions[v[0]]));
