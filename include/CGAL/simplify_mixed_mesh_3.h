@@ -79,8 +79,8 @@ from the surface between its vertices.
 
 \return the status and the numbers of the result
 \par Complexity
-Some 60 microseconds for each vertex that is removed, and twice that with a small distance; the sharp edges
-are found in a time proportional to their number of polylines times the vertices of the boundary.
+Some 60 microseconds for each vertex that is removed. The sharp edges that the mesh follows are found in a
+time proportional to the number of corners and polylines, times the number of vertices of the boundary.
 */
 template <class GeomTraits, class Surface, class Quality,
           class NamedParameters = parameters::Default_named_parameters>

@@ -20,6 +20,7 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/make_mixed_mesh_3.h>
 #include <CGAL/optimize_mixed_mesh_3.h>
+#include <CGAL/simplify_mixed_mesh_3.h>
 
 #include <boost/core/lightweight_test.hpp>
 
@@ -653,6 +654,12 @@ void test_optimization()
                                                        CGAL::parameters::visitor(std::ref(visitor)));
     BOOST_TEST(optimized.status == CGAL::Mixed_mesh_optimization_status::SUCCESS);
     test_mesh(result, mesh, 700);
+    const std::size_t number = mesh.number_of_vertices();
+    const auto simplified = CGAL::simplify_mixed_mesh_3(mesh, domain, Quality_archetype(0), 1,
+                                                        CGAL::parameters::visitor(std::ref(visitor)));
+    BOOST_TEST(simplified.status == CGAL::Mixed_mesh_simplification_status::NUMBER_NOT_REACHED);
+    BOOST_TEST(mesh.number_of_vertices() < number);
+    BOOST_TEST(mm3::find_defects(mesh).none());
   }
 }
 

@@ -11,6 +11,7 @@
 #include <CGAL/fit_mixed_mesh_to_surface.h>
 #include <CGAL/make_mixed_mesh_3.h>
 #include <CGAL/optimize_mixed_mesh_3.h>
+#include <CGAL/simplify_mixed_mesh_3.h>
 
 #include <CGAL/Named_function_parameters.h>
 
@@ -95,6 +96,10 @@ int run(int, char*[])
   test_carried([](Mesh& mesh, const Test_surface& surface, const auto& np) {
     BOOST_TEST(CGAL::optimize_mixed_mesh_3(mesh, surface, np).status
                == CGAL::Mixed_mesh_optimization_status::SUCCESS);
+  });
+  test_carried([](Mesh& mesh, const Test_surface& surface, const auto& np) {
+    BOOST_TEST(CGAL::simplify_mixed_mesh_3(mesh, surface, 0, np).status
+               == CGAL::Mixed_mesh_simplification_status::SUCCESS);
   });
   test_carried([](Mesh& mesh, const Test_surface& surface, const auto& np) {
     BOOST_TEST(CGAL::fit_mixed_mesh_to_surface(mesh, surface, np).is_on_surface());
