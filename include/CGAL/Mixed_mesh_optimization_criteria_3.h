@@ -75,8 +75,8 @@ public:
   /// The value set, or the default.
   double sliding_threshold() const { return m_sliding_threshold; }
 
-  /// Sets whether tetrahedra may be flipped, and boundary vertices that can not arrive may be merged; else
-  /// the elements stay the same. Default: yes.
+  /// Sets whether tetrahedra may be flipped, and boundary vertices that can not arrive be merged or removed;
+  /// else the elements stay the same. Default: yes.
   Mixed_mesh_optimization_criteria_3& flips(bool allowed)
   {
     m_flips = allowed;

@@ -59,7 +59,7 @@ struct Mixed_mesh_optimization_result_3
   std::size_t number_of_arrived_vertices = 0;  ///< boundary vertices on the surface
   std::size_t number_of_flips = 0;             ///< flips of tetrahedra
   std::size_t number_of_bisections = 0;        ///< bisected boundary edges, each with a new vertex
-  std::size_t number_of_merged_vertices = 0;   ///< merged vertices of the boundary, which are removed
+  std::size_t number_of_merged_vertices = 0;   ///< boundary vertices merged, or removed
   bool is_boundary_simple = true;              ///< whether the boundary does not cut itself
   /// Rounds of moves that were done.
   std::size_t number_of_rounds = 0;

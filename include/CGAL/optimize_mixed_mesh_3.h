@@ -46,15 +46,16 @@ two. Each bisection adds one vertex, on the surface, behind the existing vertice
 No element gets a cost above `criteria.quality_bound()`, or, if an element is above already, above the worst
 one at the start: where that bound and the surface conflict, boundary vertices do not arrive. In the end,
 these vertices are merged with neighbors on the boundary, where the elements stay within the bound and the
-topology is the same.
+topology is the same, or removed with their elements, where the boundary stays near and the topology the same.
 
 Guarantees: if the mesh was valid, it is valid after each move and in the end (the Jacobian of each element is
 proved positive on the whole element, on the coordinates as they are); boundary vertices counted in
 `number_of_arrived_vertices` are on the surface up to the rounding of `double`; the boundary does not cut
 itself (if it does at the start, `is_boundary_simple` may be false); hexahedra, prisms and pyramids stay;
-vertices are added by bisections only; only merged vertices are removed: then the vertices behind get smaller
-numbers; the boundary's faces stay except at bisected edges, at merged vertices, and where a flat tetrahedron
-on the boundary is removed; the same input gives the same mesh. With `criteria.flips(false)` no vertex and no
+vertices are added by bisections only; only vertices that do not arrive are removed, with those whose elements
+all go with theirs: then the vertices behind get smaller numbers; the boundary's faces stay except at bisected
+edges, at removed vertices, and where a flat tetrahedron on the boundary is removed; the same input gives the
+same mesh. With `criteria.flips(false)` no vertex and no
 element is removed.
 
 \tparam ConcurrencyTag enables sequential versus parallel algorithm: `Sequential_tag`, `Parallel_tag`, which

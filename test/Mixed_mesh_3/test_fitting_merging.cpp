@@ -4,7 +4,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
 // Merging of boundary vertices, one after the other until no vertex is left to merge: after each merge, the
-// mesh and each of its subdomains are without defects, with the topology of the start.
+// mesh and each of its subdomains are without defects, with the topology of the start. Removal of boundary
+// vertices with their elements, against brute force.
 
 #include "test_cells.h"
 #include "test_fitting.h"
@@ -13,6 +14,7 @@
 #include <CGAL/Mixed_mesh_3/Aspect_ratio_quality_3.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/shell_counts.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/merge_boundary_vertices.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/remove_vertex.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 #include <CGAL/Mixed_mesh_3/validation.h>
 
@@ -156,8 +158,92 @@ void test_place()
   BOOST_TEST_EQ(number_of_corners, 8);
 }
 
+// The mesh without the elements of a vertex, and without vertices that have no element then.
+Mesh without(const Mesh& start, Vertex_index v)
+{
+  Mesh mesh;
+  std::vector<Vertex_index> numbers(start.number_of_vertices(), no_vertex);
+  for(Element_index e = 0; e < start.number_of_elements(); ++e) {
+    const Element_view element = start.element(e);
+    if(std::find(element.begin(), element.end(), v) != element.end())
+      continue;
+    std::vector<Vertex_index> vertices;
+    for(Vertex_index u : element) {
+      if(numbers[u] == no_vertex)
+        numbers[u] = mesh.add_vertex(start.point(u));
+      vertices.push_back(numbers[u]);
+    }
+    mesh.add_element(element.kind(), vertices);
+  }
+  return mesh;
+}
+
+// Each vertex of the boundary may be removed if, and only if, what is left is without defects, has the same
+// topology, and no inner vertex of the start on its boundary: by brute force.
+// \return the number of vertices that may be removed, and of those that others go with
+std::array<std::size_t, 2> test_removal(const Mesh& start)
+{
+  std::array<std::size_t, 2> numbers{0, 0};
+  const Working_mesh whole = working_mesh(start, boundary_faces(start));
+  const internal::Shell_counts shells = internal::shells_of_boundary(start);
+  const std::size_t inside = start.number_of_vertices() - boundary_vertices(start).size();
+  for(Vertex_index v = 0; v < start.number_of_vertices(); ++v) {
+    if(!whole.is_on_boundary(v))
+      continue;
+    const internal::Vertex_removal removal = internal::find_removal(whole, v);
+    const Mesh rest = without(start, v);
+    bool is_same = !rest.is_empty() && find_defects(rest).none()
+                   && rest.number_of_vertices() - boundary_vertices(rest).size() == inside;
+    if(is_same) {
+      const internal::Shell_counts of_rest = internal::shells_of_boundary(rest);
+      is_same = of_rest.number_of_shells == shells.number_of_shells
+                && of_rest.euler_characteristic == shells.euler_characteristic;
+    }
+    BOOST_TEST_EQ(!removal.faces.empty(), is_same);
+    if(removal.faces.empty())
+      continue;
+    ++numbers[0];
+    numbers[1] += removal.vertices.size() > 1;
+    Working_mesh working = whole;
+    internal::remove_vertex(working, v, removal);
+    Mesh mesh = start;
+    working.store(mesh);
+    BOOST_TEST_EQ(mesh.number_of_vertices(), start.number_of_vertices() - removal.vertices.size());
+    BOOST_TEST_EQ(mesh.number_of_vertices(), rest.number_of_vertices());
+    BOOST_TEST_EQ(mesh.number_of_elements(), rest.number_of_elements());
+    BOOST_TEST(find_defects(mesh).none());
+  }
+  return numbers;
+}
+
+// Meshes with spikes, tunnels, cavities and walls: those of cells, of which elements are taken away that
+// leave a manifold.
+void test_removals()
+{
+  std::array<std::size_t, 2> sum{0, 0};
+  for(unsigned seed = 1; seed <= 12; ++seed) {
+    std::mt19937 random(seed);
+    Mesh mesh = cells_of_grid(3, seed,
+                              [&](const Cell& c) { return seed % 3 == 0 || c[0] != 1 || c[1] == 1; });
+    for(int i = 0; i < 60; ++i) {
+      const auto v = Vertex_index(
+        std::uniform_int_distribution<std::size_t>(0, mesh.number_of_vertices() - 1)(random));
+      const Mesh rest = without(mesh, v);
+      if(!rest.is_empty() && find_defects(rest).none())
+        mesh = rest;
+      if(i % 20 != 0)
+        continue;
+      const std::array<std::size_t, 2> numbers = test_removal(mesh);
+      sum = {sum[0] + numbers[0], sum[1] + numbers[1]};
+    }
+  }
+  BOOST_TEST_GT(sum[0], 50u);
+  BOOST_TEST_GT(sum[1], 5u);
+}
+
 int run(int, char*[])
 {
+  test_removals();
   test_cells();
   test_bound();
   test_other_kinds();

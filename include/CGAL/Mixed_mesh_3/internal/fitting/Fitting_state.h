@@ -149,6 +149,14 @@ struct Fitting_state
 
   Subdomain_index first_subdomain(Stratum of_face) const { return strata.interfaces(of_face)[0].first; }
 
+  /// Mean edge length of the boundary, or of an interface, at the start; 0 where there is none.
+  /// \param first the first subdomain of the interface
+  double mean_edge_length(Subdomain_index first) const
+  {
+    const auto found = mean_edge_lengths.find(first);
+    return found == mean_edge_lengths.end() ? 0 : found->second;
+  }
+
   /// Updates the boundary after its faces have changed.
   void update_boundary()
   {
@@ -321,13 +329,6 @@ private:
     for(const auto& [index, sum] : edges)
       means[index] = sum.first / double(sum.second);
     return means;
-  }
-
-  // Mean edge length at the start; 0 where there is none.
-  double mean_edge_length(Subdomain_index first) const
-  {
-    const auto found = mean_edge_lengths.find(first);
-    return found == mean_edge_lengths.end() ? 0 : found->second;
   }
 
   // Tolerances, at least a tenth of an edge: a smaller distance is due to the curvature of the surface, and

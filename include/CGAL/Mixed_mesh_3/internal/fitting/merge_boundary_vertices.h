@@ -14,10 +14,12 @@
 
 #include <CGAL/Mixed_mesh_3/internal/moves/Edge_collapser.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/moves/remove_vertex.h>
 
 #include <CGAL/Simple_cartesian.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -37,7 +39,7 @@ class Boundary_vertex_merger
 {
   using Face_key = typename Edge_collapser<Quality>::Face_key;
 
-  const Working_mesh& m_mesh;
+  Working_mesh& m_mesh;
   Edge_collapser<Quality> m_collapser;
   const double m_worst;
 
@@ -75,26 +77,50 @@ public:
     return best != no_vertex && m_collapser(v, best, m_worst) ? best : no_vertex;
   }
 
+  /// Removes a vertex with all of its elements, if the topology is kept and no vertex that is gone is farther
+  /// from the new faces.
+  /// \return the vertices that are gone
+  std::vector<Vertex_index> remove(Vertex_index v, double far_enough)
+  {
+    const Vertex_removal removal = find_removal(m_mesh, v);
+    if(removal.faces.empty()
+       || !std::all_of(removal.vertices.begin(), removal.vertices.end(),
+                       [&](Vertex_index u) { return is_near(u, far_enough, removal.faces); }))
+      return {};
+    remove_vertex(m_mesh, v, removal);
+    return removal.vertices;
+  }
+
 private:
+  using Kernel = CGAL::Simple_cartesian<double>;
+
+  static Kernel::Point_3 point(const Vec3& p) { return {p[0], p[1], p[2]}; }
+
+  bool is_near(Vertex_index v, double far_enough, const std::vector<std::array<Vertex_index, 3>>& faces) const
+  {
+    const auto point_of = [&](Vertex_index u) { return point(m_mesh.points[u]); };
+    return std::any_of(faces.begin(), faces.end(), [&](const auto& face) {
+      const Kernel::Triangle_3 triangle(point_of(face[0]), point_of(face[1]), point_of(face[2]));
+      return CGAL::squared_distance(point_of(v), triangle) <= far_enough * far_enough;
+    });
+  }
+
   bool is_near(const Vec3& place, Vertex_index v, Vertex_index w, const std::vector<Face_key>& faces) const
   {
-    using Kernel = CGAL::Simple_cartesian<double>;
-    const auto point = [&](Vertex_index u) {
-      const Vec3& p = m_mesh.points[u];
-      return Kernel::Point_3(p[0], p[1], p[2]);
-    };
+    const auto point_of = [&](Vertex_index u) { return point(m_mesh.points[u]); };
     const double far_enough = (std::max)(norm(m_mesh.points[v] - place),
                                          far_share * norm(m_mesh.points[v] - m_mesh.points[w]));
-    const Kernel::Point_3 p(place[0], place[1], place[2]);
+    const Kernel::Point_3 p = point(place);
     return std::any_of(faces.begin(), faces.end(), [&](const Face_key& face) {
       if(std::find(face.begin(), face.end(), w) != face.end())
         return false; // the element vanishes
       std::vector<Kernel::Point_3> q;
       for(Vertex_index u : face)
         if(u != v && u != no_vertex)
-          q.push_back(point(u));
+          q.push_back(point_of(u));
       const auto is_near_triangle = [&](std::size_t i, std::size_t j) {
-        return CGAL::squared_distance(p, Kernel::Triangle_3(point(w), q[i], q[j])) <= far_enough * far_enough;
+        return CGAL::squared_distance(p, Kernel::Triangle_3(point_of(w), q[i], q[j]))
+               <= far_enough * far_enough;
       };
       return is_near_triangle(0, 1) || (q.size() > 2 && (is_near_triangle(1, 2) || is_near_triangle(0, 2)));
     });

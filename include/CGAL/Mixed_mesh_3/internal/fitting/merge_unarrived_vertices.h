@@ -30,9 +30,38 @@ namespace internal {
 // shall not move.
 using Failed_merges = std::set<Working_mesh::Edge>;
 
-/// Merges each vertex that has not arrived with a vertex beside it; vertices that are not merged become
-/// underway.
-/// \return the merged pairs
+/// Notes that a vertex of the boundary has no element any more.
+template <class Quality>
+void note_gone(Fitting_state<Quality>& s, Vertex_index v)
+{
+  s.moves.fix(v);
+  --s.result.number_of_boundary_vertices;
+  s.result.number_of_arrived_vertices -= s.is_arrived[v];
+  ++s.result.number_of_merged_vertices;
+}
+
+/// Removes a vertex with its elements, if the boundary stays near enough.
+/// \return the vertices that are gone
+template <class Quality>
+std::vector<Vertex_index> remove_with_elements(Fitting_state<Quality>& s,
+                                               Boundary_vertex_merger<Quality>& merger, Vertex_index v)
+{
+  // Share of the mean edge of the boundary: half of the tolerance that meshes have by default. What is
+  // removed is a spike, mostly, with edges of a tenth to a fifth of those around it.
+  constexpr double share_of_edge = 0.2;
+  const Stratum stratum = s.mesh.strata[v];
+  if(stratum >= first_sharp_stratum)
+    return {};
+  std::vector<Vertex_index> gone = merger.remove(v, share_of_edge
+                                                      * s.mean_edge_length(s.first_subdomain(stratum)));
+  for(Vertex_index u : gone)
+    note_gone(s, u);
+  return gone;
+}
+
+/// Merges each vertex that has not arrived with a vertex beside it, or removes it with its elements where it
+/// can not be merged; the others become underway.
+/// \return the merged pairs, and pairs of a removed vertex and `no_vertex`
 template <class Quality>
 std::vector<Working_mesh::Edge> merge_with_neighbors(Fitting_state<Quality>& s,
                                                      Boundary_vertex_merger<Quality>& merger,
@@ -41,19 +70,21 @@ std::vector<Working_mesh::Edge> merge_with_neighbors(Fitting_state<Quality>& s,
   std::vector<Working_mesh::Edge> merged;
   s.underway.clear();
   for(Vertex_index v : s.vertices_not_arrived()) {
-    if(s.is_held[v])
+    if(s.is_held[v] || !s.mesh.is_on_boundary(v)) // it is gone with another one
       continue;
     const Vec3 place = s.project(s.mesh.points[v], s.mesh.strata[v]);
     const Vertex_index w = merger(v, place, [&](Vertex_index u) { return failed.count({v, u}) == 0; });
     if(w != no_vertex) {
-      s.moves.fix(v);
+      note_gone(s, v);
       s.moves.activate_around(w);
-      --s.result.number_of_boundary_vertices;
-      ++s.result.number_of_merged_vertices;
       merged.emplace_back(v, w);
-    } else if(failed.count({v, v}) == 0) {
-      s.underway.emplace_back(v, place);
+      continue;
     }
+    const std::vector<Vertex_index> gone = remove_with_elements(s, merger, v);
+    for(Vertex_index u : gone)
+      merged.emplace_back(u, no_vertex);
+    if(gone.empty() && failed.count({v, v}) == 0)
+      s.underway.emplace_back(v, place);
   }
   if(!merged.empty())
     s.update_boundary();

@@ -68,14 +68,11 @@ inline void fit_fine_mesh(Meshing_state& s, double bound, bool stays_simple, Cor
     [&s] { return s.go_on(); }, {0, 0, true, stays_simple}, &followed);
 }
 
-/// Brings the boundary of a fine mesh that is cut onto sharp edges and curves where interfaces meet. It is on
-/// the surface already, and stays as it is where there are none, or if it cut itself then.
+/// Brings the boundary of a fine mesh that is cut, which is on the surface already, onto sharp edges and
+/// curves where interfaces meet, and improves the elements that the cut has left. The mesh stays as it is if
+/// its boundary would cut itself then.
 inline void fit_cut_mesh(Meshing_state& s, double bound, Core_mesh& mesh, Followed_features& followed)
 {
-  const Any_domain& domain = s.root.domain();
-  if(s.root.is_region_everywhere() && !s.has_several_subdomains()
-     && domain.sharp_edges(s.criteria.sharp_angle()).edges.empty())
-    return;
   Core_mesh fitted = mesh;
   fit_fine_mesh(s, bound, true, fitted, followed);
   if(cuts_itself(fitted))
@@ -152,7 +149,7 @@ inline bool simplify_and_fit(Meshing_state& s, const Simplification_limits& limi
       mesh.clear();
     return false;
   }
-  if(goal < n)
+  if(goal < n || s.has_alternative)
     optimize_boundary(s, mesh, &followed);
   else
     fit_simplified_mesh(s, limits.largest_bound, mesh, followed);
@@ -167,8 +164,10 @@ constexpr double largest_multiple_of_bound = 5;
 
 /// Makes a mesh with the vertices of the budget out of a finer one.
 /// \param is_cut whether the finer one is cut, or on the lattice
+/// \param has_alternative whether another one is tried if the boundary is not on the surface after the first
+/// run, unless there are sharp edges, which that one would follow less
 /// \param mesh empty; stays so if there is none
-inline void make_simplified_mesh(Meshing_state& s, bool is_cut, Core_mesh& mesh)
+inline void make_simplified_mesh(Meshing_state& s, bool is_cut, bool has_alternative, Core_mesh& mesh)
 {
   // The same, before vertices are removed: vertices of flat elements go early. Without that, one to five
   // vertices of plates and gears stay off the surface in the end, with 3 or 5 parts keep less of their sharp
@@ -194,6 +193,7 @@ inline void make_simplified_mesh(Meshing_state& s, bool is_cut, Core_mesh& mesh)
     fit_cut_mesh(s, bound_on_the_way, fine, followed);
   else
     fit_fine_mesh(s, bound_on_the_way, false, fine, followed);
+  s.has_alternative = has_alternative && followed.features.empty();
   if(s.is_stopped && !s.keeps_mesh_if_stopped())
     return note_stop();
   // A part of the vertices bisect edges that are far from the surface. Where these do not arrive, all are
@@ -208,7 +208,7 @@ inline void make_simplified_mesh(Meshing_state& s, bool is_cut, Core_mesh& mesh)
     has_too_many = s.result.status == Mixed_mesh_status::BUDGET_TOO_SMALL
                    && s.result.number_of_vertices_needed > n;
   }
-  if(!is_right && !has_too_many && !s.is_stopped) {
+  if(!is_right && !has_too_many && !s.is_stopped && (mesh.is_empty() || !s.has_alternative)) {
     s.result = result;
     mesh = std::move(fine);
     simplify_and_fit(s, limits, n, followed, mesh);
