@@ -376,7 +376,7 @@ void test_merges()
   BOOST_TEST_EQ(merged.number_of_vertices(), start.mesh.number_of_vertices() - 1);
   BOOST_TEST_LT(std::abs(volume(merged) - 1), 1e-12);
   BOOST_TEST(is_valid(s, start.mesh));
-  BOOST_TEST(are_strata_of_faces(s.mesh, s.strata));
+  BOOST_TEST(are_strata_of_faces(s.mesh, s.mesh.changed(start.mesh), s.strata));
 }
 
 // ---- sharp edges -------------------------------------------------------------------------------
@@ -412,7 +412,7 @@ void test_paths()
   BOOST_TEST(s.result.lost_sharp_edges.empty());
   BOOST_TEST_EQ(number_off_cube(s), 0u);
   BOOST_TEST(is_valid(s, start.mesh));
-  BOOST_TEST(are_strata_of_faces(s.mesh, s.strata));
+  BOOST_TEST(are_strata_of_faces(s.mesh, s.mesh.changed(start.mesh), s.strata));
 }
 
 // Parts of a polyline of length 1 between arcs.
@@ -535,7 +535,7 @@ void test_bisections()
   BOOST_TEST_EQ(s.result.number_of_boundary_vertices, boundary + bisections);
   BOOST_TEST_LT(largest_distance_of_middles(s), before);
   BOOST_TEST(is_valid(s, start.mesh));
-  BOOST_TEST(are_strata_of_faces(s.mesh, s.strata));
+  BOOST_TEST(are_strata_of_faces(s.mesh, s.mesh.changed(start.mesh), s.strata));
   s.advance(10);
   BOOST_TEST(is_valid(s, start.mesh));
   BOOST_TEST(are_arrived_on_surfaces(s.mesh, s.is_arrived, s.project));
@@ -628,15 +628,17 @@ void test_postconditions()
   BOOST_TEST(are_arrived_on_surfaces(s.mesh, s.is_arrived, s.project));
   s.mesh.points[5] = p;
 
-  BOOST_TEST(are_strata_of_faces(s.mesh, s.strata));
+  BOOST_TEST(are_strata_of_faces(s.mesh, s.mesh.changed(start.mesh), s.strata));
   const Vertex_index inner = 1 + 4 * (1 + 4 * 1), outer = 5;
   s.mesh.strata[inner] = boundary_stratum;
-  BOOST_TEST(!are_strata_of_faces(s.mesh, s.strata));
+  BOOST_TEST(!are_strata_of_faces(s.mesh, s.mesh.changed(start.mesh), s.strata));
   s.mesh.strata[inner] = first_sharp_stratum;
-  BOOST_TEST(!are_strata_of_faces(s.mesh, s.strata));
+  BOOST_TEST(!are_strata_of_faces(s.mesh, s.mesh.changed(start.mesh), s.strata));
   s.mesh.strata[inner] = free_stratum;
+  s.mesh.strata[outer] = free_stratum;
+  BOOST_TEST(!are_strata_of_faces(s.mesh, s.mesh.changed(start.mesh), s.strata));
   s.mesh.strata[outer] = first_sharp_stratum;
-  BOOST_TEST(are_strata_of_faces(s.mesh, s.strata));
+  BOOST_TEST(are_strata_of_faces(s.mesh, s.mesh.changed(start.mesh), s.strata));
 
   CGAL::Mixed_mesh_fit_result_3 fit;
   const std::vector<Stratum> strata{boundary_stratum, free_stratum, boundary_stratum};

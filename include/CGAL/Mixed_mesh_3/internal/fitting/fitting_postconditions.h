@@ -40,11 +40,20 @@ inline bool has_no_new_defects(const Mesh_defects& start, const Core_mesh& mesh)
          && (end.unused_vertices == 0 || start.unused_vertices > 0);
 }
 
-/// Whether each vertex has the stratum of the interfaces that its faces are on, or is on sharp edges.
-inline bool are_strata_of_faces(const Working_mesh& mesh, Strata& strata)
+/// Whether each vertex has the stratum of the interfaces that its faces are on, or is on sharp edges. The
+/// faces are those of the changed mesh, as the working mesh looks for faces only where strata say so.
+inline bool are_strata_of_faces(const Working_mesh& mesh, const Core_mesh& changed, Strata& strata)
 {
-  const std::vector<Stratum> expected = strata.of_vertices(mesh.points.size(), mesh.interface_faces(strata));
-  return std::equal(expected.begin(), expected.end(), mesh.strata.begin(), mesh.strata.end(),
+  const std::vector<Stratum> expected = strata.of_vertices(changed.number_of_vertices(),
+                                                           strata.sorted_faces(changed));
+  std::vector<std::uint8_t> is_merged(mesh.points.size(), 0);
+  for(Vertex_index v : mesh.merged)
+    is_merged[v] = 1;
+  std::vector<Stratum> present; // without those of vertices that are gone
+  for(Vertex_index v = 0; v < mesh.points.size(); ++v)
+    if(!is_merged[v])
+      present.push_back(mesh.strata[v]);
+  return std::equal(expected.begin(), expected.end(), present.begin(), present.end(),
                     [](Stratum of_faces, Stratum s) {
                       return s == of_faces || (s >= first_sharp_stratum && of_faces != free_stratum);
                     });

@@ -159,9 +159,9 @@ Fitting_outcome optimize_surface(const Core_mesh& start, const Any_surface& doma
   set_status(s, !goes_on);
   CGAL_postcondition(are_counts_of_mesh(s.result, s.mesh, s.is_arrived));
   CGAL_expensive_postcondition(are_arrived_on_surfaces(s.mesh, s.is_arrived, s.project));
-  CGAL_expensive_postcondition(are_strata_of_faces(s.mesh, s.strata));
   Fitting_outcome outcome{s.mesh.changed(start),        s.result, std::move(crossing),
                           s.mode.is_without_attraction, false,    s.mesh.sharp_strata()};
+  CGAL_expensive_postcondition(are_strata_of_faces(s.mesh, outcome.mesh, s.strata));
   CGAL_expensive_postcondition(has_no_new_defects(find_defects(start), outcome.mesh));
   CGAL_expensive_postcondition(!s.result.is_boundary_simple || !cuts_itself(outcome.mesh));
   return outcome;

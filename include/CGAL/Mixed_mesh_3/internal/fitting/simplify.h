@@ -208,9 +208,9 @@ bool simplify(Core_mesh& mesh, Followed_features& followed, const Any_surface& s
   if(concessions.any_distance)
     remove(std::numeric_limits<double>::infinity(), false);
   followed.strata = working.sharp_strata();
-  CGAL_expensive_postcondition(are_strata_of_faces(working, strata));
   working.store(mesh);
   CGAL_postcondition(mesh.number_of_vertices() == n && followed.strata.of_vertices.size() == n);
+  CGAL_expensive_postcondition(are_strata_of_faces(working, mesh, strata));
   CGAL_expensive_postcondition(has_no_new_defects(defects_of_start, mesh));
   return n <= number_of_vertices;
 }
