@@ -20,8 +20,6 @@ FOLDERS = ("meshing", "fitting")
 # what the library instantiates, which the linker checks.
 WITHOUT_TEST = """
     meshing/usual_models
-    fitting/fit
-    fitting/relax_to_surface
 """.split()
 
 
