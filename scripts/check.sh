@@ -12,6 +12,7 @@
 #   python      programs in Python, by pyflakes
 #   layers      arrows between folders run one way: scripts/check_layers.py; the graph of ARCHITECTURE.md has
 #               them: scripts/draw_architecture.py
+#   tests       a test includes each header of internal/meshing and internal/fitting: scripts/check_tests.py
 #   version     the version number is the same in all places: scripts/check_version.py
 #   checked     some examples, one for each way through the stages, and short tests run with CGAL's assertions and
 #               preconditions, the tests also with AddressSanitizer and UndefinedBehaviorSanitizer
@@ -45,7 +46,7 @@ root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 source "$root/scripts/setup.sh"
 
 build=$(realpath -m "${BUILD_DIR:-$root/build}")
-quick=(format shell python layers version)
+quick=(format shell python layers tests version)
 compiled=(checked headers same_bytes instructions doc fuzz layout benchmarks cgal61)
 by_name=(threads)
 
@@ -96,6 +97,10 @@ check_python() {
 check_layers() {
   /usr/bin/python3 scripts/check_layers.py
   /usr/bin/python3 scripts/draw_architecture.py --check
+}
+
+check_tests() {
+  /usr/bin/python3 scripts/check_tests.py
 }
 
 check_version() {

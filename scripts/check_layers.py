@@ -26,7 +26,7 @@ MAY_REACH = {
     "fem": "base elements",
     "moves": "base oracle elements surface measures",
     "fitting": "base oracle elements surface moves fem measures",
-    "meshing": "base oracle elements surface octree transitions boundary moves fitting measures models",
+    "meshing": "base oracle elements surface octree transitions boundary moves fitting measures models services",
     "resection": "elements",
     "repair": "base",
     "IO": "base elements repair measures",
@@ -46,7 +46,7 @@ OTHERS = ("Linear_elasticity_3", "Mixed_mesh_image_3", "Mixed_mesh_petsc")
 PUBLIC = {
     MEASURES: """Aspect_ratio_quality_3 Element_locator_3 Recovered_displacement_3 Scaled_jacobian_quality_3 boundary_faces
         boundary_to_face_graph cells_in_complex_3_to_mixed_mesh certificate draw_mixed_mesh_3 interfaces
-        linear_cell_complex quality quality_bound sheets split_along_faces split_to_tetrahedra""",
+        linear_cell_complex mesh_defects quality quality_bound sheets split_along_faces split_to_tetrahedra""",
     MODELS: """Implicit_mixed_mesh_domain_3 Labeled_polyhedral_mixed_mesh_domain_3 Mixed_mesh_regions_3 Mixed_mesh_sheet_3
         Polyhedral_mixed_mesh_domain_3 Polyhedral_mixed_mesh_region_3""",
     SERVICES: "certify_mesh extract_subdomains fidelity resect surface_distance validation",

@@ -13,6 +13,10 @@
 #include <CGAL/fit_mixed_mesh_to_surface.h>
 #include <CGAL/make_mixed_mesh_3.h>
 
+#include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/fit.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/relax_to_surface.h>
+#include <CGAL/Mixed_mesh_3/internal/oracle/Any_surface.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 #include <CGAL/Mixed_mesh_3/validation.h>
 
@@ -392,6 +396,54 @@ void test_brain(const Mesh& source, const Test_surface& brain)
   BOOST_TEST(find_defects(mesh).none());
 }
 
+// Layers of elements around a corner of a grid, whose elements are cubes: the largest coordinate. Other
+// elements, which are not connected with the corner, are in no layer.
+void test_layers()
+{
+  constexpr int n = 4;
+  Mesh mesh = grid(n, CGAL::Mixed_meshes_3::HEXAHEDRON);
+  const std::size_t number = mesh.number_of_vertices();
+  for(std::size_t v = 0; v < 8; ++v)
+    mesh.add_vertex(Test_point(v & 1 ? 3 : 2, v & 2 ? 3 : 2, v & 4 ? 3 : 2));
+  std::vector<Vertex_index> other;
+  for(std::size_t v : {0, 1, 3, 2, 4, 5, 7, 6})
+    other.push_back(Vertex_index(number + v));
+  mesh.add_element(CGAL::Mixed_meshes_3::HEXAHEDRON, other);
+  const std::vector<int> layers = layers_from({0}, mesh.elements(), mesh.number_of_vertices());
+  for(std::size_t v = 0; v < number; ++v) {
+    const Vec3 p = to_vec3(mesh.point(Vertex_index(v)));
+    BOOST_TEST_EQ(layers[v], int(std::lround(n * (std::max)({p[0], p[1], p[2]}))));
+  }
+  for(std::size_t v = number; v < layers.size(); ++v)
+    BOOST_TEST_EQ(layers[v], int(Mixed_mesh_fit_criteria_3::all_layers));
+}
+
+// Algorithm 1 without its interface: a cube that is too small arrives on its surface, and one that the caller
+// stops stays valid.
+void test_algorithm()
+{
+  const Test_surface surface = box(Test_point(0, 0, 0), Test_point(1, 1, 1));
+  const Polyhedral_mixed_mesh_domain_3 domain(surface);
+  const Surface_reference<Polyhedral_mixed_mesh_domain_3> any(domain);
+  Mesh start = grid(3, CGAL::Mixed_meshes_3::HEXAHEDRON);
+  for(auto& p : start.points())
+    p = Test_point(0.05 + 0.9 * p.x(), 0.05 + 0.9 * p.y(), 0.05 + 0.9 * p.z());
+  const Mixed_mesh_fit_criteria_3 criteria;
+  for(bool goes_on : {true, false}) {
+    Core_mesh mesh = as_core_mesh(start);
+    CGAL::Eigen_solver_traits<Eigen::SimplicialLDLT<CGAL::Eigen_sparse_symmetric_matrix<double>::EigenType>>
+      solver;
+    const Mixed_mesh_fit_result_3 result = fit(mesh, any, Aspect_ratio_bound(7), criteria, solver,
+                                               [goes_on] { return goes_on; });
+    BOOST_TEST(result.status == (goes_on ? Status::SUCCESS : Status::STOPPED));
+    BOOST_TEST_EQ(result.number_of_boundary_vertices, 64u - 8u);
+    BOOST_TEST_EQ(result.number_of_arrived_vertices, goes_on ? 56u : 0u);
+    BOOST_TEST(find_defects(mesh).none());
+    for(Vertex_index v : boundary_vertices(mesh))
+      BOOST_TEST_EQ(distance(mesh.point(v), surface) < 1e-9, goes_on);
+  }
+}
+
 int run(int argc, char* argv[])
 {
   const std::string data = argc > 1 ? argv[1] : MIXED_MESH_3_DATA_DIR;
@@ -402,6 +454,8 @@ int run(int argc, char* argv[])
   CGAL::make_mixed_mesh_3(Polyhedral_mixed_mesh_domain_3(brain), CGAL::Polyhedral_mixed_mesh_region_3(region),
                           Mixed_mesh_criteria_3(660).fit_to_surface(false), mesh);
 
+  test_layers();
+  test_algorithm();
   test_solvers();
   test_brain(mesh, brain);
   test_other_surfaces(brain);

@@ -25,6 +25,8 @@
 #include <CGAL/Mixed_mesh_optimization_criteria_3.h>
 #include <CGAL/Mixed_mesh_optimization_result_3.h>
 
+#include <CGAL/assertions.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -299,6 +301,7 @@ optimize_bounded(Core_mesh& mesh, const Any_surface& surface,
 {
   Bounded_optimization<Quality> run(mesh, surface, criteria, quality, estimate, followed);
   const Mixed_mesh_optimization_result_3 result = run(go_on);
+  CGAL_postcondition(result.number_of_arrived_vertices <= result.number_of_boundary_vertices);
   if(followed != nullptr)
     *followed = std::move(run).followed_features();
   return result;

@@ -15,12 +15,16 @@
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/Strata.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Surface_projection.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/fitting_postconditions.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/is_valid_start.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/relax_to_surface.h>
 #include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/surface_targets.h>
+#include <CGAL/Mixed_mesh_3/mesh_defects.h>
 #include <CGAL/Mixed_mesh_fit_criteria_3.h>
 #include <CGAL/Mixed_mesh_fit_result_3.h>
+
+#include <CGAL/assertions.h>
 
 #include <cstddef>
 #include <vector>
@@ -36,6 +40,7 @@ Mixed_mesh_fit_result_3 fit(Core_mesh& mesh, const Any_surface& domain, const Qu
                             const Mixed_mesh_fit_criteria_3& criteria, Solver& solver, const Go_on& go_on)
 {
   constexpr int maximal_number_of_attempts = 3;
+  CGAL_expensive_postcondition_code(const Mesh_defects defects_of_start = find_defects(mesh));
   Mixed_mesh_fit_result_3 result;
   if(mesh.is_empty())
     return result;
@@ -61,6 +66,9 @@ Mixed_mesh_fit_result_3 fit(Core_mesh& mesh, const Any_surface& domain, const Qu
   for(std::size_t v = 0; v < points.size(); ++v)
     if(to_vec3(mesh.points()[v]) != points[v])
       mesh.points()[v] = Core_mesh::Point_3(points[v][0], points[v][1], points[v][2]);
+  CGAL_postcondition(are_counts_of_strata(result, of_vertices));
+  CGAL_expensive_postcondition(!result.is_on_surface() || are_all_on_surfaces(points, of_vertices, project));
+  CGAL_expensive_postcondition(has_no_new_defects(defects_of_start, mesh));
   return result;
 }
 

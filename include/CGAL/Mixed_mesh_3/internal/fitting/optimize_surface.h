@@ -15,12 +15,17 @@
 #include <CGAL/Mixed_mesh_3/internal/base/Concurrency.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Fitting_state.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/arrive.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/fitting_postconditions.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/follow_sharp_edges.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/improve.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/mend.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/merge_unarrived_vertices.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/retreat.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/return_to_surface.h>
+#include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
+#include <CGAL/Mixed_mesh_3/mesh_defects.h>
+
+#include <CGAL/assertions.h>
 
 #include <cstdint>
 #include <functional>
@@ -152,8 +157,14 @@ Fitting_outcome optimize_surface(const Core_mesh& start, const Any_surface& doma
   if(s.features)
     measure_features(s);
   set_status(s, !goes_on);
-  return {s.mesh.changed(start),        s.result, std::move(crossing),
-          s.mode.is_without_attraction, false,    s.mesh.sharp_strata()};
+  CGAL_postcondition(are_counts_of_mesh(s.result, s.mesh, s.is_arrived));
+  CGAL_expensive_postcondition(are_arrived_on_surfaces(s.mesh, s.is_arrived, s.project));
+  Fitting_outcome outcome{s.mesh.changed(start),        s.result, std::move(crossing),
+                          s.mode.is_without_attraction, false,    s.mesh.sharp_strata()};
+  CGAL_expensive_postcondition(are_strata_of_faces(s.mesh, outcome.mesh, s.strata));
+  CGAL_expensive_postcondition(has_no_new_defects(find_defects(start), outcome.mesh));
+  CGAL_expensive_postcondition(!s.result.is_boundary_simple || !cuts_itself(outcome.mesh));
+  return outcome;
 }
 
 } // namespace internal

@@ -18,11 +18,15 @@
 #include <CGAL/Mixed_mesh_3/internal/fitting/Followed_features.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Mesh_simplifier.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/Surface_projection.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/fitting_postconditions.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/weights_of_vertices.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/Strata.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/oracle/Any_surface.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
+#include <CGAL/Mixed_mesh_3/mesh_defects.h>
+
+#include <CGAL/assertions.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -160,6 +164,7 @@ bool simplify(Core_mesh& mesh, Followed_features& followed, const Any_surface& s
   // Vertices of the start by those of the end, about, where the limits decide: of a ball of 3,000 vertices, a
   // hundredth of its diameter leaves 330. The result depends on it for shells of different sizes only.
   constexpr std::size_t expected_ratio = 10;
+  CGAL_expensive_postcondition_code(const Mesh_defects defects_of_start = find_defects(mesh));
   Strata strata(surface);
   const Interface_faces faces = strata.sorted_faces(mesh);
   Working_mesh working(mesh, strata.of_vertices(mesh.number_of_vertices(), faces));
@@ -204,6 +209,9 @@ bool simplify(Core_mesh& mesh, Followed_features& followed, const Any_surface& s
     remove(std::numeric_limits<double>::infinity(), false);
   followed.strata = working.sharp_strata();
   working.store(mesh);
+  CGAL_postcondition(mesh.number_of_vertices() == n && followed.strata.of_vertices.size() == n);
+  CGAL_expensive_postcondition(are_strata_of_faces(working, mesh, strata));
+  CGAL_expensive_postcondition(has_no_new_defects(defects_of_start, mesh));
   return n <= number_of_vertices;
 }
 

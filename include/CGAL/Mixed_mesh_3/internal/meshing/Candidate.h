@@ -14,12 +14,16 @@
 #include <CGAL/Mixed_mesh_3/internal/base/Core_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/Boundary_stage.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/assemble_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/meshing_postconditions.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/stage_scopes.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
 #include <CGAL/Mixed_mesh_3/internal/oracle/Any_visitor.h>
 #include <CGAL/Mixed_mesh_3/internal/transitions/Lattice_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/transitions/apply_transitions.h>
+#include <CGAL/Mixed_mesh_3/validation.h>
 #include <CGAL/Mixed_mesh_criteria_3.h>
+
+#include <CGAL/assertions.h>
 
 #include <cstddef>
 #include <utility>
@@ -64,6 +68,7 @@ inline Core_mesh assembled_mesh(const Located_octree& octree, const Candidate& c
 {
   Core_mesh mesh;
   assemble_mesh(octree, candidate.mesh, candidate.boundary, mesh);
+  CGAL_postcondition(mesh.number_of_vertices() == candidate.number_of_vertices);
   return mesh;
 }
 
@@ -71,13 +76,16 @@ inline Core_mesh assembled_mesh(const Located_octree& octree, const Candidate& c
 inline void make_lattice_mesh(const Located_octree& octree, const Meshing_criteria& criteria,
                               Any_visitor& visitor, Candidate& c)
 {
+  CGAL_assertion(is_balanced(octree.octree(), Adjacency::EDGE));
   {
     const Stage_scope scope(visitor, Stage::TRANSITIONS);
     c.mesh = apply_transitions(octree, criteria.transition_templates(), criteria.number_of_threads);
+    CGAL_expensive_postcondition(is_valid_lattice_mesh(c.mesh));
   }
   {
     const Stage_scope scope(visitor, Stage::BOUNDARY);
     c.boundary = split_boundary(octree, c.mesh, criteria.boundary_mode(), criteria.number_of_threads);
+    CGAL_expensive_postcondition(is_valid_boundary(octree, c.mesh, c.boundary));
   }
   c.number_of_vertices = c.boundary.number_of_vertices;
 }

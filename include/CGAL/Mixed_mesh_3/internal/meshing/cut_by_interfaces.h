@@ -22,6 +22,7 @@
 #include <CGAL/Mixed_mesh_3/internal/base/vector_3.h>
 #include <CGAL/Mixed_mesh_3/internal/boundary/split_by_order.h>
 #include <CGAL/Mixed_mesh_3/internal/elements/manifold_defects.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/meshing_postconditions.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/Working_mesh.h>
 #include <CGAL/Mixed_mesh_3/internal/moves/bisect_edge.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
@@ -613,8 +614,10 @@ inline Core_mesh cut_by_interfaces(const Interface_cutter& uncut, bool keeps_thi
     Interface_cutter cut = uncut;
     Core_mesh mesh = cut(stays, keeps_thin_parts);
     const std::vector<Vertex_index> defects = cut.defects(mesh);
-    if(defects.empty())
+    if(defects.empty()) {
+      CGAL_expensive_postcondition(is_valid_cut(mesh));
       return mesh;
+    }
     for(Vertex_index v : defects)
       if(v < stays.size()) // others are on the interface
         stays[v] = 1;

@@ -20,11 +20,14 @@
 #include <CGAL/Mixed_mesh_3/internal/meshing/fill_budget.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/layer_cells.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/make_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/meshing_postconditions.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/sharp_cells.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/stage_scopes.h>
 #include <CGAL/Mixed_mesh_3/internal/transitions/apply_transitions.h>
 #include <CGAL/Mixed_mesh_3/split_to_tetrahedra.h>
+#include <CGAL/Mixed_mesh_3/validation.h>
 
+#include <CGAL/assertions.h>
 #include <CGAL/enum.h>
 
 #include <algorithm>
@@ -349,7 +352,9 @@ inline Core_mesh cut_mesh(Meshing_state& s, std::size_t number_kept, bool keeps_
     Lattice_mesh lattice;
     {
       const Stage_scope scope(s.visitor, Stage::TRANSITIONS);
+      CGAL_assertion(is_balanced(s.octree.octree(), Adjacency::EDGE));
       lattice = apply_transitions(s.octree, s.criteria.transition_templates(), s.criteria.number_of_threads);
+      CGAL_expensive_postcondition(is_valid_lattice_mesh(lattice));
     }
     const Stage_scope scope(s.visitor, Stage::BOUNDARY);
     const Interface_cutter cutter(

@@ -13,7 +13,10 @@
 #include <CGAL/Mixed_mesh_3/internal/base/compiled.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/fewest_vertices.h>
 #include <CGAL/Mixed_mesh_3/internal/meshing/mesh_domain.h>
+#include <CGAL/Mixed_mesh_3/internal/meshing/meshing_postconditions.h>
 #include <CGAL/Mixed_mesh_3/internal/octree/Located_octree.h>
+
+#include <CGAL/assertions.h>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
@@ -23,11 +26,14 @@ CGAL_MIXED_MESH_3_INLINE Mixed_mesh_result_3 mesh_domain(const Oracles& oracles,
                                                          const Meshing_criteria& criteria,
                                                          Any_visitor& visitor, Core_mesh& mesh)
 {
+  CGAL_precondition(!criteria.fewest_vertices() || (criteria.tolerance() > 0 && criteria.fit_to_surface()));
   const Located_octree root(oracles);
-  if(!criteria.fewest_vertices())
-    return run_stages(root, criteria, visitor, mesh);
-  CGAL_precondition(criteria.tolerance() > 0 && criteria.fit_to_surface());
-  return run_with_fewest_vertices(root, criteria, visitor, mesh);
+  const Mixed_mesh_result_3 result = criteria.fewest_vertices()
+                                       ? run_with_fewest_vertices(root, criteria, visitor, mesh)
+                                       : run_stages(root, criteria, visitor, mesh);
+  CGAL_postcondition(are_numbers_of_mesh(result, criteria, mesh));
+  CGAL_expensive_postcondition(is_valid_result(result, mesh));
+  return result;
 }
 
 } // namespace internal
