@@ -185,7 +185,7 @@ std::array<std::size_t, 2> test_removal(const Mesh& start)
 {
   std::array<std::size_t, 2> numbers{0, 0};
   const Working_mesh whole = working_mesh(start, boundary_faces(start));
-  const internal::Shell_counts shells = internal::shells_of_boundary(start);
+  const Shell_counts shells = internal::shells_of_boundary(start);
   const std::size_t inside = start.number_of_vertices() - boundary_vertices(start).size();
   for(Vertex_index v = 0; v < start.number_of_vertices(); ++v) {
     if(!whole.is_on_boundary(v))
@@ -195,7 +195,7 @@ std::array<std::size_t, 2> test_removal(const Mesh& start)
     bool is_same = !rest.is_empty() && find_defects(rest).none()
                    && rest.number_of_vertices() - boundary_vertices(rest).size() == inside;
     if(is_same) {
-      const internal::Shell_counts of_rest = internal::shells_of_boundary(rest);
+      const Shell_counts of_rest = internal::shells_of_boundary(rest);
       is_same = of_rest.number_of_shells == shells.number_of_shells
                 && of_rest.euler_characteristic == shells.euler_characteristic;
     }

@@ -157,7 +157,7 @@ private:
       if(outcome.result.status == Status::STOPPED)
         return outcome.meets_guarantees && !mode.is_without_attraction ? take(outcome)
                                                                        : stopped(outcome.result);
-      if(m_estimate.leaves_rest || m_estimate.has_alternative)
+      if(m_estimate.leaves_rest)
         return take(outcome);
       if(outcome.meets_guarantees && (is_fitted(outcome.result) || !has_bound()))
         return take(outcome); // no other run would do better

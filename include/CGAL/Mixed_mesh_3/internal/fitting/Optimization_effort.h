@@ -34,8 +34,6 @@ struct Fitting_estimate
   /// Whether places where the boundary would cut itself are held, as it does not at the start. Otherwise it
   /// may, if `leaves_rest`.
   bool stays_simple = false;
-  /// Whether another mesh is made if this one is not right after the first run.
-  bool has_alternative = false;
 };
 
 /*!

@@ -63,7 +63,6 @@ struct Meshing_state
   std::optional<Located_octree> start;  // narrow places at sharp edges are resolved
   bool is_stopped = false;              // by the visitor, which is not asked again then
   std::size_t number_beyond_budget = 0; // vertices that the octree may have, to be removed
-  bool has_alternative = false;         // another mesh is made if this one is not right after the first run
   double quality_bound;                 // in force: larger than that of the criteria where walls need it
   Mixed_mesh_result_3 result;
   Tolerance_search tolerance_search;

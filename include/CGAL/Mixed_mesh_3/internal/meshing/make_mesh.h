@@ -134,11 +134,9 @@ inline void optimize_boundary(Meshing_state& s, Core_mesh& mesh, Followed_featur
                           .quality_bound(s.quality_bound)
                           .sharp_angle(s.criteria.sharp_angle())
                           .number_of_bisections(s.share_of_bisections() > 0 ? rest : 0);
-  Fitting_estimate estimate;
-  estimate.has_alternative = s.has_alternative;
   s.result.optimization = optimize_bounded(
     mesh, s.root.domain(), {criteria, s.criteria.number_of_threads}, Aspect_ratio_quality_3(),
-    [&s] { return s.go_on(); }, estimate, followed);
+    [&s] { return s.go_on(); }, {}, followed);
   const bool is_only_wished = is_tolerance_wished(s.criteria)
                               && s.result.optimization.status
                                    == Mixed_mesh_optimization_status::TOLERANCE_NOT_REACHED;

@@ -111,16 +111,11 @@ inline Mixed_mesh_result_3 run_stages(const Located_octree& root, const Meshing_
     return s.is_stopped
            || (of_other.is_nearly_right(s.number_off_tolerated()) && (has_layers || !is_other_above));
   };
-  bool is_given_up = false; // whether the mesh on the lattice was left after its first run
-  const auto simplify = [&](bool is_cut, bool has_alternative) {
-    return run([&](Meshing_state& s, Core_mesh& m) {
-      make_simplified_mesh(s, is_cut, has_alternative, m);
-      is_given_up = is_given_up || s.has_alternative;
-    });
+  const auto simplify = [&](bool is_cut) {
+    return run([is_cut](Meshing_state& s, Core_mesh& m) { make_simplified_mesh(s, is_cut, m); });
   };
   if(begins_fine(root, criteria)) {
-    const bool is_right = (!is_always_cut && simplify(false, true)) || simplify(true, false)
-                          || (is_given_up && simplify(false, false));
+    const bool is_right = (!is_always_cut && simplify(false)) || simplify(true);
     const bool is_flat = result.quality_bound > largest_multiple_of_bound * criteria.quality_bound();
     if(is_right || (!mesh.is_empty() && (has_layers || !is_flat))
        || (has_layers && result.status == Mixed_mesh_status::BUDGET_TOO_SMALL))

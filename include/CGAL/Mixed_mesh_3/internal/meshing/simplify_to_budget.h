@@ -149,7 +149,7 @@ inline bool simplify_and_fit(Meshing_state& s, const Simplification_limits& limi
       mesh.clear();
     return false;
   }
-  if(goal < n || s.has_alternative)
+  if(goal < n)
     optimize_boundary(s, mesh, &followed);
   else
     fit_simplified_mesh(s, limits.largest_bound, mesh, followed);
@@ -164,10 +164,8 @@ constexpr double largest_multiple_of_bound = 5;
 
 /// Makes a mesh with the vertices of the budget out of a finer one.
 /// \param is_cut whether the finer one is cut, or on the lattice
-/// \param has_alternative whether another one is tried if the boundary is not on the surface after the first
-/// run, unless there are sharp edges, which that one would follow less
 /// \param mesh empty; stays so if there is none
-inline void make_simplified_mesh(Meshing_state& s, bool is_cut, bool has_alternative, Core_mesh& mesh)
+inline void make_simplified_mesh(Meshing_state& s, bool is_cut, Core_mesh& mesh)
 {
   // The same, before vertices are removed: vertices of flat elements go early. Without that, one to five
   // vertices of plates and gears stay off the surface in the end, with 3 or 5 parts keep less of their sharp
@@ -193,7 +191,6 @@ inline void make_simplified_mesh(Meshing_state& s, bool is_cut, bool has_alterna
     fit_cut_mesh(s, bound_on_the_way, fine, followed);
   else
     fit_fine_mesh(s, bound_on_the_way, false, fine, followed);
-  s.has_alternative = has_alternative && followed.features.empty();
   if(s.is_stopped && !s.keeps_mesh_if_stopped())
     return note_stop();
   // A part of the vertices bisect edges that are far from the surface. Where these do not arrive, all are
@@ -208,7 +205,7 @@ inline void make_simplified_mesh(Meshing_state& s, bool is_cut, bool has_alterna
     has_too_many = s.result.status == Mixed_mesh_status::BUDGET_TOO_SMALL
                    && s.result.number_of_vertices_needed > n;
   }
-  if(!is_right && !has_too_many && !s.is_stopped && (mesh.is_empty() || !s.has_alternative)) {
+  if(!is_right && !has_too_many && !s.is_stopped) {
     s.result = result;
     mesh = std::move(fine);
     simplify_and_fit(s, limits, n, followed, mesh);
