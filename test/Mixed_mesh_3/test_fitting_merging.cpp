@@ -241,9 +241,35 @@ void test_removals()
   BOOST_TEST_GT(sum[1], 5u);
 }
 
+// Where several subdomains meet, interfaces stay: each subdomain is without defects after each removal.
+void test_removals_beside_interfaces()
+{
+  std::size_t number = 0;
+  for(unsigned seed = 1; seed <= 6; ++seed) {
+    const Mesh start = cells_of_grid(4, seed, [&](const Cell& c) { return c[0] < 2 ? 1 : 2; });
+    const Working_mesh whole = working_mesh(start, boundary_faces(start));
+    for(Vertex_index v = 0; v < start.number_of_vertices(); ++v) {
+      const internal::Vertex_removal removal = whole.is_on_boundary(v) ? internal::find_removal(whole, v)
+                                                                       : internal::Vertex_removal();
+      if(removal.faces.empty())
+        continue;
+      ++number;
+      Working_mesh working = whole;
+      internal::remove_vertex(working, v, removal);
+      Mesh mesh = start;
+      working.store(mesh);
+      BOOST_TEST(find_defects(mesh).none());
+      for(Subdomain_index index : {1, 2})
+        BOOST_TEST(find_defects(part(mesh, index)).none());
+    }
+  }
+  BOOST_TEST_GT(number, 0u);
+}
+
 int run(int, char*[])
 {
   test_removals();
+  test_removals_beside_interfaces();
   test_cells();
   test_bound();
   test_other_kinds();

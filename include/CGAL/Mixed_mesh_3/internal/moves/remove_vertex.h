@@ -52,6 +52,16 @@ inline bool are_connected(const std::vector<std::array<Vertex_index, 3>>& triang
   return rest.empty();
 }
 
+/// Whether another element has a triangle of an element.
+inline bool is_face_of_other(const Working_mesh& mesh, Element_index e,
+                             const std::array<Vertex_index, 3>& face)
+{
+  const auto around = mesh.incident[face[0]];
+  return std::any_of(around.begin(), around.end(), [&](Element_index other) {
+    return other != e && mesh.elements[other].has(face[1]) && mesh.elements[other].has(face[2]);
+  });
+}
+
 /// What goes with a vertex of the boundary that is removed with all of its elements, and what comes.
 struct Vertex_removal
 {
@@ -84,8 +94,11 @@ inline Vertex_removal find_removal(const Working_mesh& mesh, Vertex_index v)
       return {};
     std::array<Vertex_index, 3> face;
     std::copy_if(element.begin(), element.end(), face.begin(), [v](Vertex_index u) { return u != v; });
-    if(!is_shared(mesh, e, {face[0], face[1], face[2]}))
+    if(!is_shared(mesh, e, {face[0], face[1], face[2]})) {
+      if(is_face_of_other(mesh, e, face))
+        return {}; // an interface would come to the boundary
       continue;
+    }
     removal.faces.push_back(face);
     at_faces.insert(at_faces.end(), face.begin(), face.end());
     for(std::size_t i = 0; i < 3; ++i)
@@ -105,8 +118,13 @@ inline Vertex_removal find_removal(const Working_mesh& mesh, Vertex_index v)
   std::set_difference(neighbors.begin(), neighbors.end(), at_faces.begin(), at_faces.end(),
                       std::back_inserter(removal.vertices));
   removal.vertices.push_back(v);
-  if(std::any_of(removal.vertices.begin(), removal.vertices.end(),
-                 [&](Vertex_index u) { return mesh.strata[u] >= first_sharp_stratum; }))
+  const auto has_to_stay = [&](Vertex_index u) { // on a sharp edge, or where the boundary is no manifold
+    const auto at_u = mesh.incident[u];
+    return mesh.strata[u] >= first_sharp_stratum
+           || std::any_of(at_u.begin(), at_u.end(),
+                          [&](Element_index e) { return !mesh.elements[e].has(v); });
+  };
+  if(std::any_of(removal.vertices.begin(), removal.vertices.end(), has_to_stay))
     return {};
   return removal;
 }
