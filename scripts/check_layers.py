@@ -168,12 +168,13 @@ def find_violations(root):
     return violations
 
 
-def main():
+def report(find_violations_in):
+    """Prints the violations in ROOT, the argument of the script, or in the project. Returns the exit status."""
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent)
-    violations = find_violations(root)
+    violations = find_violations_in(root)
     print(*violations, sep="\n", end="\n" if violations else "")
     return 1 if violations else 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(report(find_violations))

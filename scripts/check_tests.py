@@ -12,7 +12,7 @@ only get shorter: a header that is tested has to leave it. Exits with status 1 a
 import pathlib
 import sys
 
-from check_layers import own_includes
+from check_layers import own_includes, report
 
 INTERNAL = "Mixed_mesh_3/internal/"
 FOLDERS = ("meshing", "fitting")
@@ -49,12 +49,5 @@ def find_violations(root):
     return violations
 
 
-def main():
-    root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent.parent)
-    violations = find_violations(root)
-    print(*violations, sep="\n", end="\n" if violations else "")
-    return 1 if violations else 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(report(find_violations))
