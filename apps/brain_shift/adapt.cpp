@@ -6,7 +6,6 @@
 #include "brain_shift/adapt.h"
 
 #include "brain_shift/subdomains.h"
-#include "brain_shift/supports.h"
 #include "core/messages.h"
 
 #include <CGAL/Linear_elasticity_3/adapt_mixed_mesh_3.h>
@@ -17,7 +16,6 @@
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
-#include <string>
 #include <vector>
 
 namespace mm3 = CGAL::Mixed_meshes_3;
@@ -34,7 +32,7 @@ struct Opening_disk
 
 // The disk around the control points. The outermost points are halfway to the border, where a bump has half
 // its height; or as far from the border as the radius over which control points are averaged.
-Opening_disk disk_around(const Mesh& mesh, const Options& o, const Outcome& outcome)
+Opening_disk disk_around(const Mesh& mesh, double control_radius, const Outcome& outcome)
 {
   Opening_disk disk;
   std::vector<Vector> points; // points in the mesh
@@ -48,7 +46,7 @@ Opening_disk disk_around(const Mesh& mesh, const Options& o, const Outcome& outc
   double farthest = 0;
   for(const Vector& p : points)
     farthest = (std::max)(farthest, norm(p - disk.center));
-  disk.radius = farthest + (std::max)(farthest, o.control_radius);
+  disk.radius = farthest + (std::max)(farthest, control_radius);
   return disk;
 }
 
@@ -76,10 +74,11 @@ std::array<Vector, 3> directions_at(const Mesh& mesh, const Opening_disk& disk)
 
 } // namespace
 
-void adapt(Mesh& mesh, const Boundary_patches& patches, const Options& o, Outcome& outcome)
+void adapt(Mesh& mesh, const std::string& mesh_file, const Boundary_patches& patches,
+           const Support_options& options, double radius, Outcome& outcome)
 {
-  const Supports supports = find_supports(mesh, patches, o, outcome.points);
-  const Opening_disk disk = disk_around(mesh, o, outcome);
+  const Supports supports = find_supports(mesh, patches, options, outcome.points);
+  const Opening_disk disk = disk_around(mesh, radius, outcome);
   const std::array<Vector, 3> directions = directions_at(mesh, disk);
   std::vector<mm3::Prescribed_displacements> cases(directions.size());
   std::size_t loaded = 0;
@@ -111,5 +110,5 @@ void adapt(Mesh& mesh, const Boundary_patches& patches, const Options& o, Outcom
   using Status = CGAL::Mixed_mesh_adaptation_status;
   const Status status = outcome.adaptation->status;
   if(status != Status::CONVERGED && status != Status::SOLVES_EXHAUSTED)
-    throw std::runtime_error("--adapt: " + o.mesh + " cannot be adapted: " + mm3::description(status));
+    throw std::runtime_error("--adapt: " + mesh_file + " cannot be adapted: " + mm3::description(status));
 }

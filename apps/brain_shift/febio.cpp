@@ -19,7 +19,6 @@
 #include <map>
 #include <ostream>
 #include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -66,7 +65,7 @@ Motion_constraints constraints_left(const Remaining_mesh& remaining, const Motio
 
 // The acceleration of the tissue, reduced by the buoyancy of the fluid; check_febio() has ensured that there
 // is mass.
-Vector acceleration_in_fluid(double density, const Options& o)
+Vector acceleration_in_fluid(double density, const Model_options& o)
 {
   const double weight = o.fluid_density == 0 ? 1 : 1 - o.fluid_density * kg_per_mm3 / density;
   return weight * Vector(o.acceleration);
@@ -74,9 +73,9 @@ Vector acceleration_in_fluid(double density, const Options& o)
 
 } // namespace
 
-void write_febio(mm3::IO::Output_files& files, const Remaining_mesh& remaining,
+void write_febio(mm3::IO::Output_files& files, const std::string& path, const Remaining_mesh& remaining,
                  std::vector<mm3::IO::Facet_set> facet_sets, const mm3::IO::Subdomain_names& subdomain_names,
-                 const Options& o, const Outcome& outcome)
+                 const Model_options& o, const Outcome& outcome)
 {
   mm3::IO::FEB_model model;
   for(const Subdomain_facts& s : outcome.subdomains) {
@@ -91,16 +90,16 @@ void write_febio(mm3::IO::Output_files& files, const Remaining_mesh& remaining,
   model.controls = std::move(constraints.controls);
   model.facet_sets = std::move(facet_sets);
   model.subdomain_names = subdomain_names;
-  model.displacements_file = std::filesystem::path(o.febio).stem().string() + "_displacements.csv";
+  model.displacements_file = std::filesystem::path(path).stem().string() + "_displacements.csv";
   model.comments.push_back(counted(outcome.constraints.means.size(), "control point", "control points")
                            + " of brain_shift; several nodes that have a mean displacement, or slide, are "
                              "linear constraints.");
-  if(o.compliance > 0)
+  if(o.points.compliance > 0)
     model.comments.emplace_back(
       "Control points give way to forces in brain_shift: here are the displacements "
       "that came out.");
   const auto write = [&](std::ostream& stream) {
     return mm3::IO::write_FEB_model(stream, remaining.mesh, model);
   };
-  require([&](std::string* error) { return files.write(o.febio, write, error); });
+  require([&](std::string* error) { return files.write(path, write, error); });
 }

@@ -79,7 +79,8 @@ std::string hint(const Mesh& mesh, const mm3::Voxel_grid_3& grid)
   return defect.empty() ? "" : "; the mesh " + defect;
 }
 
-[[noreturn]] void refuse(const Options& o, const Mesh& mesh, const mm3::Voxel_grid_3& grid)
+[[noreturn]] void refuse(const std::string& file, const Mesh& mesh, const std::string& mesh_file,
+                         const mm3::Voxel_grid_3& grid)
 {
   Vector middle;
   for(int k = 0; k < 3; ++k)
@@ -88,7 +89,7 @@ std::string hint(const Mesh& mesh, const mm3::Voxel_grid_3& grid)
   for(const auto& p : mesh.points())
     box += p.bbox();
   throw std::runtime_error(
-    o.image + ": the image does not overlap the mesh " + o.mesh + ": its center is at "
+    file + ": the image does not overlap the mesh " + mesh_file + ": its center is at "
     + place(mm3::transform(grid.index_to_world, middle)) + ", the mesh's at "
     + place({(box.xmin() + box.xmax()) / 2, (box.ymin() + box.ymax()) / 2, (box.zmin() + box.zmax()) / 2})
     + ", in mm" + hint(mesh, grid));
@@ -132,13 +133,13 @@ std::vector<Rim_facts> find_rims(const mm3::Voxel_image_3& labels, const mm3::Vo
 
 // The labels after the deformation; labels of removed tissue are 0.
 mm3::Voxel_image_3 warp_labels(const mm3::Voxel_image_3& labels, const mm3::Warped_image_3& warped,
-                               const Options& o, Outcome& outcome)
+                               const std::string& file, Outcome& outcome)
 {
   mm3::Voxel_image_3 result = mm3::resample_image(labels, warped.backward, mm3::Image_interpolation::NEAREST);
   outcome.image->rims = find_rims(result, warped.mask);
   for(const Rim_facts& rim : outcome.image->rims)
     outcome.warnings.push_back(
-      o.labels + ": of label " + std::to_string(std::llround(rim.label)) + ", "
+      file + ": of label " + std::to_string(std::llround(rim.label)) + ", "
       + counted(rim.resected, "voxel is", "voxels are") + " resected, and "
       + counted(rim.left, "one is", "others are")
       + " left as a rim: the cavity ends where elements, or the smoothed surface, do");
@@ -150,12 +151,12 @@ mm3::Voxel_image_3 warp_labels(const mm3::Voxel_image_3& labels, const mm3::Warp
 
 } // namespace
 
-mm3::Voxel_image_3 read_labels(const Options& o, const mm3::Voxel_grid_3& grid)
+mm3::Voxel_image_3 read_labels(const Image_options& o, const mm3::Voxel_grid_3& grid)
 {
   mm3::Voxel_image_3 labels;
   require([&](std::string* error) { return mm3::IO::read_voxel_image(o.labels, labels, error); });
   if(!are_same(grid, labels.grid))
-    throw std::runtime_error(o.labels + ": the label image does not have the voxels of " + o.image);
+    throw std::runtime_error(o.labels + ": the label image does not have the voxels of " + o.file);
   constexpr float largest = 1 << 24; // floats distinguish integers up to there
   for(float value : labels.values)
     if(value != std::floor(value) || std::abs(value) > largest)
@@ -164,17 +165,18 @@ mm3::Voxel_image_3 read_labels(const Options& o, const mm3::Voxel_grid_3& grid)
   return labels;
 }
 
-mm3::Voxel_image_3 read_image(const Options& o, const Mesh& mesh, Outcome& outcome)
+mm3::Voxel_image_3 read_image(const std::string& file, const Mesh& mesh, const std::string& mesh_file,
+                              Outcome& outcome)
 {
   mm3::Voxel_image_3 image;
-  require([&](std::string* error) { return mm3::IO::read_voxel_image(o.image, image, error); });
+  require([&](std::string* error) { return mm3::IO::read_voxel_image(file, image, error); });
   const mm3::Voxel_grid_3& grid = image.grid;
   const std::size_t inside = number_of_vertices_inside(mesh, grid);
   if(inside == 0)
-    refuse(o, mesh, grid);
+    refuse(file, mesh, mesh_file, grid);
   if(inside != mesh.number_of_vertices())
-    outcome.warnings.push_back(o.image + ": only " + std::to_string(inside) + " of "
-                               + std::to_string(mesh.number_of_vertices()) + " vertices of " + o.mesh
+    outcome.warnings.push_back(file + ": only " + std::to_string(inside) + " of "
+                               + std::to_string(mesh.number_of_vertices()) + " vertices of " + mesh_file
                                + " are in the image: are both in the same coordinates?" + hint(mesh, grid));
   const auto limits = std::minmax_element(image.values.begin(), image.values.end());
   Image_facts& facts = outcome.image.emplace();
@@ -189,7 +191,8 @@ mm3::Voxel_image_3 read_image(const Options& o, const Mesh& mesh, Outcome& outco
 
 void write_images(mm3::IO::Output_files& files, const mm3::Voxel_image_3& image,
                   const mm3::Voxel_image_3& labels, const Mesh& mesh, const Tumor& tumor,
-                  const std::vector<bool>& is_removed, const Options& o, Stage_log& log, Outcome& outcome)
+                  const std::vector<bool>& is_removed, const Image_options& o, Stage_log& log,
+                  Outcome& outcome)
 {
   mm3::Warp_options warp;
   warp.interpolation = o.interpolation;
@@ -206,33 +209,33 @@ void write_images(mm3::IO::Output_files& files, const mm3::Voxel_image_3& image,
   outcome.image->voxels_of_tissue = std::size_t(std::count(mask.begin(), mask.end(), 1.f));
   outcome.image->voxels_resected = std::size_t(std::count(mask.begin(), mask.end(), 2.f));
   outcome.image->linear_elements = warped.number_of_linear_elements;
-  if(!o.output_image.empty())
+  if(!o.output.empty())
     log("write images", [&] {
       require([&](std::string* error) {
-        return mm3::IO::write_warped_image(files, o.output_image + ".nii.gz", warped, o.field_formats, error);
+        return mm3::IO::write_warped_image(files, o.output + ".nii.gz", warped, o.field_formats, error);
       });
       if(!o.labels.empty())
         require([&](std::string* error) {
-          return mm3::IO::write_NIFTI(files, labels_output(o), warp_labels(labels, warped, o, outcome),
-                                      error);
+          return mm3::IO::write_NIFTI(files, o.labels_output(),
+                                      warp_labels(labels, warped, o.labels, outcome), error);
         });
     });
 }
 
 #else
 
-mm3::Voxel_image_3 read_image(const Options&, const Mesh&, Outcome&)
+mm3::Voxel_image_3 read_image(const std::string&, const Mesh&, const std::string&, Outcome&)
 {
   throw std::logic_error("checked with the options");
 }
 
-mm3::Voxel_image_3 read_labels(const Options&, const mm3::Voxel_grid_3&)
+mm3::Voxel_image_3 read_labels(const Image_options&, const mm3::Voxel_grid_3&)
 {
   throw std::logic_error("checked with the options");
 }
 
 void write_images(mm3::IO::Output_files&, const mm3::Voxel_image_3&, const mm3::Voxel_image_3&, const Mesh&,
-                  const Tumor&, const std::vector<bool>&, const Options&, Stage_log&, Outcome&)
+                  const Tumor&, const std::vector<bool>&, const Image_options&, Stage_log&, Outcome&)
 {
 }
 

@@ -15,19 +15,19 @@ namespace {
 using Errors = std::vector<std::optional<Vector>>;
 
 // Errors at the targets. Given landmarks move the mesh; the other landmarks move with their elements.
-Errors errors_of_targets(Elasticity& elasticity, const Options& o, Outcome& outcome)
+Errors errors_of_targets(Elasticity& elasticity, const Controls& all, Outcome& outcome)
 {
   const Landmark_facts& landmarks = *outcome.landmarks;
-  Controls given{o.landmarks, {}, o.landmark_compliance};
+  Controls given{all.mesh, all.options, {}};
   for(std::size_t i = 0; i < landmarks.points.size(); ++i)
     if(landmarks.is_given[i])
       given.points.push_back(landmarks.points[i]);
-  set_control_points(elasticity, o, given);
+  set_control_points(elasticity, given);
   const CGAL::Linear_elasticity_result_3 result = elasticity.solve(given.displacements());
   Errors errors(landmarks.points.size());
   if(!is_solution(elasticity, result)) {
     outcome.warnings.push_back(
-      o.landmarks + ": by the outermost landmarks, the model has no solution: " + result.description());
+      all.options.file + ": by the outermost landmarks, the model has no solution: " + result.description());
     return errors;
   }
   for(std::size_t i = 0; i < errors.size(); ++i)
@@ -38,14 +38,9 @@ Errors errors_of_targets(Elasticity& elasticity, const Options& o, Outcome& outc
 
 } // namespace
 
-Controls controls_of_landmarks(const Options& o, const Landmark_facts& landmarks)
+void measure_by_outermost(Elasticity& elasticity, const Controls& landmarks, Outcome& outcome)
 {
-  return {o.landmarks, landmarks.points, o.landmark_compliance};
-}
-
-void measure_by_outermost(Elasticity& elasticity, const Options& o, Outcome& outcome)
-{
-  const Errors errors = errors_of_targets(elasticity, o, outcome);
+  const Errors errors = errors_of_targets(elasticity, landmarks, outcome);
   outcome.landmarks->errors.push_back({Landmark_facts::model, {}, errors});
 }
 

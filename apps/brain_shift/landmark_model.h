@@ -8,18 +8,15 @@
 #ifndef MIXED_MESH_3_APPS_BRAIN_SHIFT_LANDMARK_MODEL_H
 #define MIXED_MESH_3_APPS_BRAIN_SHIFT_LANDMARK_MODEL_H
 
-#include "brain_shift/options.h"
 #include "brain_shift/outcome.h"
 #include "brain_shift/solve.h"
-
-/// All landmarks, as control points.
-Controls controls_of_landmarks(const Options& options, const Landmark_facts& landmarks);
 
 /// Moves the mesh by the outermost landmarks, and measures the errors at the other landmarks. The
 /// factorization stays: each given landmark takes three solutions of the system. Other control points have to
 /// be set again.
+/// \param landmarks all landmarks, as control points
 /// \pre the system is factored, and loads are set
-void measure_by_outermost(Elasticity& elasticity, const Options& options, Outcome& outcome);
+void measure_by_outermost(Elasticity& elasticity, const Controls& landmarks, Outcome& outcome);
 
 /// Measures the error at each landmark when it is left out, without solving a system.
 /// \pre the mesh was moved by all landmarks; `measure_by_outermost()` was called before

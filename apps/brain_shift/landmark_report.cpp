@@ -5,7 +5,6 @@
 
 #include "brain_shift/landmark_report.h"
 
-#include "brain_shift/landmarks.h"
 #include "core/messages.h"
 
 #include <cstddef>
@@ -77,7 +76,7 @@ std::string text_of(const std::optional<Error_summary>& s)
 
 } // namespace
 
-Json describe_landmarks(const Options& o, const Landmark_facts& landmarks)
+Json describe_landmarks(const Landmark_options& o, bool is_corotational, const Landmark_facts& landmarks)
 {
   const std::size_t n = landmarks.points.size(), k = landmarks.number_given;
   Json left_out = {{"targets", n}}, given = {{"landmarks given", k}, {"targets", n - k}};
@@ -85,13 +84,13 @@ Json describe_landmarks(const Options& o, const Landmark_facts& landmarks)
     left_out[errors.method] = describe(summary(errors.left_out, std::vector<bool>(n, true)));
     given[errors.method] = describe(summary(errors.given, targets(landmarks)));
   }
-  return {{"file", o.landmarks},
-          {"file of points after", o.landmarks_after.empty() ? Json() : Json(o.landmarks_after)},
+  return {{"file", o.file},
+          {"file of points after", o.file_after.empty() ? Json() : Json(o.file_after)},
           {"number", n},
-          {"are control points", o.are_landmarks_control_points},
-          {"compliance", {{"value", o.landmark_compliance}, {"unit", "mm/mN"}}},
+          {"are control points", o.are_control_points},
+          {"compliance", {{"value", o.compliance}, {"unit", "mm/mN"}}},
           {"leave-one-out errors of the model",
-           o.corotational ? "estimated by the stiffness at rest" : "exact"},
+           is_corotational ? "estimated by the stiffness at rest" : "exact"},
           {"target registration errors in mm",
            {{"leave one out", left_out},
             {"by the outermost", given},
@@ -99,7 +98,7 @@ Json describe_landmarks(const Options& o, const Landmark_facts& landmarks)
           {"points", describe_points(landmarks)}};
 }
 
-void print_landmarks(const Options& o, const Landmark_facts& landmarks)
+void print_landmarks(const Landmark_options& o, bool is_corotational, const Landmark_facts& landmarks)
 {
   const std::size_t n = landmarks.points.size(), k = landmarks.number_given;
   const auto print_row = [](const std::string& name, const std::string& left_out, const std::string& given) {
@@ -114,8 +113,8 @@ void print_landmarks(const Options& o, const Landmark_facts& landmarks)
   if(landmarks.of_shift)
     std::cout << "  the shift by the control points, at all landmarks: "
               << text_of(summary_of_shift(landmarks)) << '\n';
-  std::cout << "  in the model, landmarks give way to forces: compliance " << rounded(o.landmark_compliance)
+  std::cout << "  in the model, landmarks give way to forces: compliance " << rounded(o.compliance)
             << " mm/mN (--control-compliance)\n";
-  if(o.corotational)
+  if(is_corotational)
     std::cout << "  with finite rotations, its leave-one-out errors are an estimate\n";
 }

@@ -5,7 +5,6 @@
 
 #include "brain_shift/landmarks.h"
 
-#include "brain_shift/locate.h"
 #include "brain_shift/read_landmarks.h"
 #include "brain_shift/registration.h"
 #include "core/messages.h"
@@ -15,7 +14,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <string>
 
 namespace mm3 = CGAL::Mixed_meshes_3;
 
@@ -109,26 +107,27 @@ std::vector<std::optional<Vector>> errors_of_targets(Registration registration,
 
 } // namespace
 
-Landmark_facts read_landmarks(const Options& o)
+Landmark_facts read_landmarks(const Landmark_options& o)
 {
   Landmark_facts landmarks;
-  landmarks.points = read_landmarks(o.landmarks, o.landmarks_after);
+  landmarks.points = read_landmarks(o.file, o.file_after);
   const std::size_t n = landmarks.points.size();
-  landmarks.number_given = o.landmarks_given > 0 ? o.landmarks_given : default_number_given(n);
+  landmarks.number_given = o.number_given > 0 ? o.number_given : default_number_given(n);
   if(landmarks.number_given >= n)
-    control_points::refuse(o.landmarks, "has " + std::to_string(n) + " landmarks: none is left to predict if "
-                                          + std::to_string(landmarks.number_given)
-                                          + " are given; see --landmarks-given");
+    control_points::refuse(o.file, "has " + std::to_string(n) + " landmarks: none is left to predict if "
+                                     + std::to_string(landmarks.number_given)
+                                     + " are given; see --landmarks-given");
   return landmarks;
 }
 
-void place_landmarks(const Mesh& mesh, const Options& o, Outcome& outcome)
+void place_landmarks(const Mesh& mesh, const std::string& mesh_file, const Landmark_options& o,
+                     Outcome& outcome)
 {
   Landmark_facts& landmarks = *outcome.landmarks;
-  if(o.are_landmarks_control_points)
+  if(o.are_control_points)
     landmarks.locations = outcome.locations;
   else
-    landmarks.locations = locate(mesh, o, o.landmarks, landmarks.points, outcome.warnings);
+    landmarks.locations = locate(mesh, {mesh_file, o, landmarks.points}, outcome.warnings);
   landmarks.depths = depths_of(mesh, landmarks);
   landmarks.is_given = outermost(landmarks.depths, landmarks.number_given);
 }
@@ -140,18 +139,18 @@ void compare_registrations(Landmark_facts& landmarks)
                                 errors_of_targets(registration, landmarks)});
 }
 
-void warn_of_landmarks(const Options& o, Outcome& outcome)
+void warn_of_landmarks(const std::string& file, Outcome& outcome)
 {
   const Landmark_facts& landmarks = *outcome.landmarks;
   const std::vector<bool> all(landmarks.points.size(), true);
   for(const Landmark_facts::Errors& errors : landmarks.errors) {
     const auto missing = std::find(errors.left_out.begin(), errors.left_out.end(), std::nullopt);
     if(missing != errors.left_out.end())
-      outcome.warnings.push_back(o.landmarks + ": " + errors.method + ": the landmarks other than "
+      outcome.warnings.push_back(file + ": " + errors.method + ": the landmarks other than "
                                  + landmarks.points[std::size_t(missing - errors.left_out.begin())].place()
                                  + " do not determine it: there is no error of leave one out");
     if(!summary(errors.given, targets(landmarks)))
-      outcome.warnings.push_back(o.landmarks + ": " + errors.method + ": the "
+      outcome.warnings.push_back(file + ": " + errors.method + ": the "
                                  + std::to_string(landmarks.number_given)
                                  + " outermost landmarks do not determine it; see --landmarks-given");
   }
@@ -165,7 +164,7 @@ void warn_of_landmarks(const Options& o, Outcome& outcome)
   const Supports& supports = outcome.supports;
   if(rigid && model && model->mean > rigid->mean && supports.fixed + supports.sliding + supports.touching > 0)
     outcome.warnings.push_back(
-      o.landmarks + ": a rigid registration predicts landmarks to " + rounded(rigid->mean)
+      file + ": a rigid registration predicts landmarks to " + rounded(rigid->mean)
       + " mm in the mean, the model to " + rounded(model->mean)
       + " mm: either landmarks give way too much beside the supports of the model, see --control-compliance, "
         "or images that are not aligned contradict these, see --fixed-below");

@@ -16,14 +16,12 @@
 #include <CGAL/version.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -38,8 +36,6 @@ constexpr bool has_nifti = true;
 #else
 constexpr bool has_nifti = false;
 #endif
-
-constexpr const char* label_prefix = "label:";
 
 CLI::Validator fraction()
 {
@@ -59,7 +55,7 @@ void add_landmarks(CLI::App& app, Options& o)
   CLI::Option* const landmarks =
     app
       .add_option(
-        "--landmarks", o.landmarks,
+        "--landmarks", o.model.landmarks.file,
         "Pairs of points measured before and after the shift, in mm: tag points of MNI for two volumes, "
         ".tag; "
         "fiducials of 3D Slicer before, .fcsv or .mrk.json; or a table with the header "
@@ -69,12 +65,12 @@ void add_landmarks(CLI::App& app, Options& o)
         "spline, and the model: at each landmark by the others, and at the others by the outermost")
       ->type_name("FILE");
   app
-    .add_option("--landmarks-after", o.landmarks_after,
+    .add_option("--landmarks-after", o.model.landmarks.file_after,
                 "Where the fiducials of --landmarks are after, in the same order: .fcsv or .mrk.json")
     ->needs(landmarks)
     ->type_name("FILE");
   app
-    .add_option("--landmarks-given", o.landmarks_given,
+    .add_option("--landmarks-given", o.model.landmarks.number_given,
                 "How many landmarks are given for the others to be predicted: those nearest to the boundary "
                 "(default: 8, but at most half of them, and at least 4)")
     ->check(number("from 4 to 1000000", [](double k) { return k >= 4 && k <= 1e6 && k == std::floor(k); }))
@@ -85,16 +81,17 @@ void add_landmarks(CLI::App& app, Options& o)
 // Returns the option that those of images need.
 CLI::Option* add_inputs(CLI::App& app, Options& o)
 {
-  app.add_option("MESH", o.mesh, "Mesh of the brain, in mm: .vtu, .msh, .mesh, .ele or .vol")->required();
+  app.add_option("MESH", o.model.mesh, "Mesh of the brain, in mm: .vtu, .msh, .mesh, .ele or .vol")
+    ->required();
   app
     .add_option(
-      "--control-points", o.control_points,
+      "--control-points", o.model.points.file,
       "Table of points with given displacements, in mm: a header x,y,z,dx,dy,dz, then a line for "
       "each, with one column more, weight, if you like; or a list of fiducials before, .fcsv or .mrk.json "
       "(default: the points of --landmarks)")
     ->type_name("FILE.csv");
   app
-    .add_option("--control-points-after", o.control_points_after,
+    .add_option("--control-points-after", o.model.points.file_after,
                 "Where the fiducials of --control-points are after, in the same order: .fcsv or .mrk.json")
     ->type_name("FILE");
   add_landmarks(app, o);
@@ -110,11 +107,11 @@ CLI::Option* add_inputs(CLI::App& app, Options& o)
     ->type_name("LABEL");
   add_surface_options(app, o.surface_options);
   CLI::Option* image = app
-                         .add_option("--image", o.image,
+                         .add_option("--image", o.images.file,
                                      std::string("Image before the shift: ") + image_endings)
                          ->type_name("IMAGE");
   app
-    .add_option("--labels", o.labels,
+    .add_option("--labels", o.images.labels,
                 std::string(
                   "Label image on the voxels of --image: is deformed with it, by the nearest voxel: ")
                   + image_endings)
@@ -129,7 +126,7 @@ void add_supports(CLI::App& app, Options& o)
     ->type_name("X,Y,Z")
     ->capture_default_str();
   app
-    .add_option("--fixed-below", o.fixed_below,
+    .add_option("--fixed-below", o.model.supports.fixed_below,
                 "Boundary vertices in that lower part of the height are fixed; 0: none. With --fixed: 0 by "
                 "default, unless base is among the patches")
     ->check(fraction())
@@ -137,13 +134,13 @@ void add_supports(CLI::App& app, Options& o)
     ->capture_default_str();
   CLI::Option* slide_below =
     app
-      .add_option("--slide-below", o.slide_below,
+      .add_option("--slide-below", o.model.supports.slide_below,
                   "Boundary vertices in that lower part of the height that are not fixed slide along the "
                   "boundary without friction (default: 0, none)")
       ->check(fraction())
       ->type_name("FRACTION");
   app
-    .add_option("--slide-beyond", o.slide_beyond,
+    .add_option("--slide-beyond", o.model.supports.slide_beyond,
                 "Boundary vertices farther than that from all control points slide, unless fixed: the skull "
                 "holds the brain but at the opening (default: none)")
     ->check(not_negative())
@@ -153,21 +150,21 @@ void add_supports(CLI::App& app, Options& o)
     app.add_option(name, patches, what)->type_name("PATCH")->allow_extra_args(false);
   };
   add_patches(
-    "--fixed", o.fixed_patches,
+    "--fixed", o.patches.fixed,
     "Patch of the boundary that is fixed: faces whose center is inside a closed surface, sphere:X,Y,Z,R, "
     "box:X0,Y0,Z0,X1,Y1,Z1 or plane:X,Y,Z,NX,NY,NZ (on the plane or beyond, where the normal points to), "
     "label:N (faces of elements of subdomain N), or base (that of --fixed-below); can be given several "
     "times");
   add_patches(
-    "--slide", o.sliding_patches,
+    "--slide", o.patches.sliding,
     "Patch that slides, unless fixed: as that of --fixed, without base, or skull (all of the boundary); can "
     "be given several times");
   add_patches(
-    "--contact", o.touching_patches,
+    "--contact", o.patches.touching,
     "Patch that touches the skull without friction, and can leave it, unless fixed or sliding: as that of "
     "--slide; can be given several times");
   add_patches(
-    "--opening", o.openings,
+    "--opening", o.patches.openings,
     "Patch that is free, whatever other options say: as that of --fixed, without base; can be given "
     "several times");
 }
@@ -203,14 +200,14 @@ void add_physics(CLI::App& app, Options& o)
     ->type_name("G/CM3")
     ->capture_default_str();
   app
-    .add_option("--fluid-density", o.fluid_density,
+    .add_option("--fluid-density", o.model.fluid_density,
                 "Density of the fluid around the tissue; 0: there is none")
     ->check(not_negative())
     ->type_name("G/CM3")
     ->capture_default_str();
   app
     .add_option(
-      "--fluid-level", o.fluid_level,
+      "--fluid-level", o.model.fluid_level,
       "Height of the fluid's surface, in the direction against gravity (the coordinate z if gravity is "
       "0,0,-9810): tissue above has its whole weight (default: all of it is in the fluid)")
     ->check(number("of a height", [](double x) { return std::isfinite(x); }))
@@ -221,13 +218,13 @@ void add_physics(CLI::App& app, Options& o)
 void add_control(CLI::App& app, Options& o)
 {
   app
-    .add_option("--max-distance", o.max_distance,
+    .add_option("--max-distance", o.model.points.max_distance,
                 "Control points up to so far outside the mesh are taken to its boundary")
     ->check(not_negative())
     ->type_name("MM")
     ->capture_default_str();
   app
-    .add_option("--control-radius", o.control_radius,
+    .add_option("--control-radius", o.model.points.radius,
                 "A control point has the mean displacement of the boundary within so far, mm; 0: that of "
                 "the point itself, which a force then dents, the deeper the finer the mesh")
     ->check(not_negative())
@@ -235,7 +232,7 @@ void add_control(CLI::App& app, Options& o)
     ->capture_default_str();
   app
     .add_option(
-      "--control-compliance", o.compliance,
+      "--control-compliance", o.model.points.compliance,
       "How far a control point gives way to a force, for measurements that are noisy, in mm/mN; "
       "0: they are exact. It is divided by the weight of a point that has one (default: 0 for "
       "--control-points; for --landmarks, which are measured, 1 divided by --young-modulus, as on 22 "
@@ -243,7 +240,7 @@ void add_control(CLI::App& app, Options& o)
     ->check(not_negative())
     ->type_name("C");
   app.add_flag(
-    "--leave-one-out", o.leave_one_out,
+    "--leave-one-out", o.model.leave_one_out,
     "How well the other control points predict each of them, in mm: the error to be expected where "
     "there is none, in the report");
 }
@@ -256,7 +253,7 @@ void add_method(CLI::App& app, Options& o)
                                                                         Displacement_order::REGION}};
   app
     .add_option(
-      "--order", o.order,
+      "--order", o.model.order,
       "Displacements in elements: 1, linear; 2, quadratic, many times as accurate on the same mesh, and "
       "slower; region: quadratic in the region of the mesh and 4 mm around. 2 and region not with --contact, "
       "--corotational or petsc, region not with --febio (default: 2 up to 3000 vertices with "
@@ -264,7 +261,7 @@ void add_method(CLI::App& app, Options& o)
     ->transform(CLI::CheckedTransformer(orders).description("{1,2,region}"))
     ->type_name("ORDER");
   app.add_flag(
-    "--corotational", o.corotational,
+    "--corotational", o.model.corotational,
     "Finite rotations: elements that turn with the tissue, by Newton's method; strains should still be "
     "small (default: small rotations)");
   app.add_flag(
@@ -310,7 +307,7 @@ void add_outputs(CLI::App& app, Options& o, CLI::Option* image)
     ->type_name("FILE.feb");
   CLI::Option* output_image =
     app
-      .add_option("--output-image", o.output_image,
+      .add_option("--output-image", o.images.output,
                   "Start of the names of images: PREFIX.nii.gz (deformed), PREFIX_mask.nii.gz (1 tissue, "
                   "2 resected), PREFIX_labels.nii.gz with --labels, and the fields of --field")
       ->needs(image)
@@ -322,7 +319,7 @@ void add_outputs(CLI::App& app, Options& o, CLI::Option* image)
     {"nrrd", mm3::IO::Field_format::NRRD}};
   app
     .add_option(
-      "--field", o.field_formats,
+      "--field", o.images.field_formats,
       "Displacement fields, PREFIX_backward... to deform images with and PREFIX_forward... for points: "
       "itk (NIfTI with LPS vectors for ITK, ANTs, plastimatch; ..._itk.nii.gz), nifti (RAS vectors; "
       "....nii.gz), nrrd (3D Slicer; ....nrrd); can be given several times")
@@ -335,7 +332,7 @@ void add_outputs(CLI::App& app, Options& o, CLI::Option* image)
                                                                           {"recovered",
                                                                            Interpolation::RECOVERED}};
   app
-    .add_option("--interpolation", o.interpolation,
+    .add_option("--interpolation", o.images.interpolation,
                 "Displacement between vertices, for the image: recovered, by shape functions and gradients, "
                 "or with --order 2 as it was computed (default); or linear, between vertices only")
     ->transform(CLI::CheckedTransformer(interpolations, CLI::ignore_case).description("{linear,recovered}"))
@@ -389,14 +386,14 @@ void check_patches(const CLI::App& app, Options& o)
       else if(const auto shape = patch_shape(patch); shape && !shape->defect.empty())
         throw CLI::ValidationError(option + (' ' + patch), shape->defect);
   };
-  check("--fixed", o.fixed_patches, skull_patch);
-  check("--slide", o.sliding_patches, base_patch);
-  check("--contact", o.touching_patches, base_patch);
-  check("--opening", o.openings, base_patch);
-  check("--opening", o.openings, skull_patch);
-  const bool has_base = std::count(o.fixed_patches.begin(), o.fixed_patches.end(), base_patch) != 0;
-  if(!o.fixed_patches.empty() && !has_base && app.count("--fixed-below") == 0)
-    o.fixed_below = 0;
+  check("--fixed", o.patches.fixed, skull_patch);
+  check("--slide", o.patches.sliding, base_patch);
+  check("--contact", o.patches.touching, base_patch);
+  check("--opening", o.patches.openings, base_patch);
+  check("--opening", o.patches.openings, skull_patch);
+  const bool has_base = std::count(o.patches.fixed.begin(), o.patches.fixed.end(), base_patch) != 0;
+  if(!o.patches.fixed.empty() && !has_base && app.count("--fixed-below") == 0)
+    o.model.supports.fixed_below = 0;
 }
 
 // The material in a text: a label, and two or three numbers.
@@ -434,15 +431,15 @@ void check_febio(const Options& o)
   };
   if(mm3::IO::format_of(o.febio) != mm3::IO::Format::FEB)
     throw CLI::ValidationError("--febio", control_points::quoted(o.febio) + " does not end in .feb");
-  if(!o.touching_patches.empty())
+  if(!o.patches.touching.empty())
     refuse("--contact", "contact is with another body there, not with the boundary as it was");
-  const bool has_weight = o.acceleration != std::array<double, 3>{};
-  if(has_weight && std::isfinite(o.fluid_level))
+  const bool has_weight = o.model.acceleration != std::array<double, 3>{};
+  if(has_weight && std::isfinite(o.model.fluid_level))
     refuse("--fluid-level", "forces of FEBio are by mass, the same in all of a subdomain");
   const bool is_massless = o.density == 0
                            || std::any_of(o.materials.begin(), o.materials.end(),
                                           [](const auto& m) { return m.material.density == 0; });
-  if(has_weight && o.fluid_density > 0 && is_massless)
+  if(has_weight && o.model.fluid_density > 0 && is_massless)
     refuse("--density", "forces of FEBio are by mass, and tissue without mass would float");
 }
 
@@ -459,18 +456,28 @@ void check_fiducials(const char* option, const std::string& before, const std::s
 void check_points(const CLI::App& app, Options& o)
 {
   constexpr double compliance_at_1_kPa = 1;
-  check_fiducials("--control-points-after", o.control_points, o.control_points_after);
-  check_fiducials("--landmarks-after", o.landmarks, o.landmarks_after);
-  if(o.control_points.empty() && o.landmarks.empty())
+  check_fiducials("--control-points-after", o.model.points.file, o.model.points.file_after);
+  check_fiducials("--landmarks-after", o.model.landmarks.file, o.model.landmarks.file_after);
+  if(o.model.points.file.empty() && o.model.landmarks.file.empty())
     throw CLI::RequiredError("--control-points or --landmarks");
   const bool has_compliance = app.count("--control-compliance") != 0;
-  o.landmark_compliance = has_compliance ? o.compliance : compliance_at_1_kPa / o.material.young_modulus;
-  o.are_landmarks_control_points = o.control_points.empty();
-  if(!o.are_landmarks_control_points)
-    return;
-  o.control_points = o.landmarks;
-  o.control_points_after = o.landmarks_after;
-  o.compliance = o.landmark_compliance;
+  Point_options& points = o.model.points;
+  Landmark_options& landmarks = o.model.landmarks;
+  landmarks.max_distance = points.max_distance;
+  landmarks.radius = points.radius;
+  landmarks.compliance = has_compliance ? points.compliance : compliance_at_1_kPa / o.material.young_modulus;
+  landmarks.are_control_points = points.file.empty();
+  if(landmarks.are_control_points)
+    points = landmarks;
+}
+
+// The option that can only be had with linear displacements; empty if there is none.
+std::string option_of_order_1(const Options& o)
+{
+  return !o.patches.touching.empty() ? "--contact"
+         : o.model.corotational      ? "--corotational"
+         : o.uses_petsc              ? "--solver petsc"
+                                     : "";
 }
 
 // Checks conditions that the parser does not check.
@@ -481,33 +488,51 @@ void check_use(const CLI::App& app, bool has_petsc, Options& o)
   const bool is_downwards = o.up.size() == 2 && o.up[0] == '-';
   const std::size_t axis = o.up.size() == 1 || is_downwards ? axes.find(o.up.back()) : axes.npos;
   if(axis != axes.npos)
-    o.up_direction[axis] = is_downwards ? -1 : 1;
+    o.model.supports.up[axis] = is_downwards ? -1 : 1;
   else
-    o.up_direction = vector_of("--up", o.up);
-  const auto& u = o.up_direction;
+    o.model.supports.up = vector_of("--up", o.up);
+  const auto& u = o.model.supports.up;
   const double length = std::sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
   if(!(length > 0))
     throw CLI::ValidationError("--up", "is not a direction");
-  for(double& x : o.up_direction)
+  for(double& x : o.model.supports.up)
     x *= 1 / length;
-  o.acceleration = vector_of("--gravity", o.gravity);
+  o.model.acceleration = vector_of("--gravity", o.gravity);
   o.material.density = o.density * kg_per_mm3;
   for(const std::string& text : o.material_texts)
     o.materials.push_back(material_of(text, o.material));
   check_patches(app, o);
+  o.model.keeps_constraints = !o.febio.empty();
   if(!o.febio.empty())
     check_febio(o);
   if(o.uses_petsc != has_petsc)
     throw CLI::ValidationError("--solver", has_petsc ? "this program is for petsc only"
                                                      : "this program was built without PETSc");
-  if(o.order == Displacement_order::QUADRATIC || o.order == Displacement_order::REGION)
-    if(const std::string other = option_of_order_1(o); !other.empty())
-      throw CLI::ValidationError("--order", "only order 1 can be had with " + other);
-  if(o.order == Displacement_order::REGION && !o.febio.empty())
+  const std::string& other = o.model.option_of_order_1 = option_of_order_1(o);
+  if((o.model.order == Displacement_order::QUADRATIC || o.model.order == Displacement_order::REGION)
+     && !other.empty())
+    throw CLI::ValidationError("--order", "only order 1 can be had with " + other);
+  if(o.model.order == Displacement_order::REGION && !o.febio.empty())
     throw CLI::ValidationError("--order",
                                "elements of a model of FEBio (--febio) have order 1 or 2 everywhere");
-  if(!o.image.empty() && !has_nifti)
+  if(!o.images.file.empty() && !has_nifti)
     throw CLI::ValidationError("--image", "this program was built without nifti_clib");
+}
+
+// The images that are written. The names are those of `write_warped_image()`, and that of the labels.
+std::vector<std::string> image_outputs(const Image_options& o)
+{
+  std::vector<std::string> paths;
+  if(o.output.empty())
+    return paths;
+  for(const char* name : {"", "_mask"})
+    paths.push_back(o.output + name + ".nii.gz");
+  if(!o.labels.empty())
+    paths.push_back(o.labels_output());
+  for(mm3::IO::Field_format format : o.field_formats)
+    for(const char* name : {"_forward", "_backward"})
+      paths.push_back(o.output + name + mm3::IO::end_of_field_name(format));
+  return paths;
 }
 
 } // namespace
@@ -523,27 +548,6 @@ std::optional<int> parse_command_line(int argc, char** argv, bool has_petsc, Opt
   return parse("brain_shift", app, argc, argv, [&] { check_use(app, has_petsc, options); });
 }
 
-std::string option_of_order_1(const Options& o)
-{
-  return !o.touching_patches.empty() ? "--contact"
-         : o.corotational            ? "--corotational"
-         : o.uses_petsc              ? "--solver petsc"
-                                     : "";
-}
-
-std::string labels_output(const Options& o) { return o.output_image + "_labels.nii.gz"; }
-
-std::optional<int> label_of(const std::string& patch)
-{
-  int label = 0;
-  const std::string prefix = label_prefix;
-  const char* const end = patch.data() + patch.size();
-  if(patch.rfind(prefix, 0) != 0)
-    return std::nullopt;
-  const auto [rest, error] = std::from_chars(patch.data() + prefix.size(), end, label);
-  return error == std::errc() && rest == end && label > 0 ? std::optional<int>(label) : std::nullopt;
-}
-
 bool can_hold_displacements(const std::string& path)
 {
   using mm3::IO::Format;
@@ -552,26 +556,10 @@ bool can_hold_displacements(const std::string& path)
          || format == Format::FEB;
 }
 
-// The names are those of `write_warped_image()`, and that of the labels.
-std::vector<std::string> image_outputs(const Options& o)
-{
-  std::vector<std::string> paths;
-  if(o.output_image.empty())
-    return paths;
-  for(const char* name : {"", "_mask"})
-    paths.push_back(o.output_image + name + ".nii.gz");
-  if(!o.labels.empty())
-    paths.push_back(labels_output(o));
-  for(mm3::IO::Field_format format : o.field_formats)
-    for(const char* name : {"_forward", "_backward"})
-      paths.push_back(o.output_image + name + mm3::IO::end_of_field_name(format));
-  return paths;
-}
-
 std::vector<std::string> outputs_of(const Options& o)
 {
   std::vector<std::string> outputs;
-  for(const auto& paths : {o.outputs, o.deformed_outputs, image_outputs(o)})
+  for(const auto& paths : {o.outputs, o.deformed_outputs, image_outputs(o.images)})
     outputs.insert(outputs.end(), paths.begin(), paths.end());
   for(const std::string& path : {o.report, o.page, o.febio})
     if(!path.empty())
@@ -581,10 +569,15 @@ std::vector<std::string> outputs_of(const Options& o)
 
 std::vector<std::string> inputs_of(const Options& o)
 {
-  std::vector<std::string> inputs{o.mesh,      o.control_points,  o.control_points_after,
-                                  o.landmarks, o.landmarks_after, o.tumor,
-                                  o.image,     o.labels};
-  for(const auto& patches : {o.fixed_patches, o.sliding_patches, o.touching_patches, o.openings})
+  std::vector<std::string> inputs{o.model.mesh,
+                                  o.model.points.file,
+                                  o.model.points.file_after,
+                                  o.model.landmarks.file,
+                                  o.model.landmarks.file_after,
+                                  o.tumor,
+                                  o.images.file,
+                                  o.images.labels};
+  for(const auto& patches : {o.patches.fixed, o.patches.sliding, o.patches.touching, o.patches.openings})
     inputs.insert(inputs.end(), patches.begin(), patches.end());
   return inputs;
 }
@@ -601,7 +594,7 @@ void check_feasible(const Options& o)
     require([&](std::string* error) { return mm3::IO::check_output_path(path, error); });
     outputs.push_back(path);
   }
-  for(const std::string& path : image_outputs(o))
+  for(const std::string& path : image_outputs(o.images))
     outputs.push_back(path);
   for(const std::string& path : {o.report, o.page, o.febio})
     if(!path.empty())

@@ -11,11 +11,13 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstddef>
 #include <functional>
 #include <map>
 #include <memory>
 #include <stdexcept>
+#include <system_error>
 #include <utility>
 
 namespace mm3 = CGAL::Mixed_meshes_3;
@@ -25,7 +27,8 @@ namespace {
 using Contains = std::function<bool(const mm3::Face&)>;
 
 // The faces of a patch: faces of elements of a label, or faces with their center inside a shape or a surface.
-Contains read_patch(const Mesh& mesh, const std::string& place, const Options& o,
+Contains read_patch(const Mesh& mesh, const std::string& mesh_file, const std::string& place,
+                    const mm3::IO::Read_anatomical_surface_options& options,
                     std::vector<std::string>& warnings)
 {
   if(const auto label = label_of(place))
@@ -35,18 +38,20 @@ Contains read_patch(const Mesh& mesh, const std::string& place, const Options& o
       return contains(center_of(mesh, face), tolerance);
     };
   Surface_facts facts;
-  const std::shared_ptr<const Closed_surface> surface = read_beside_mesh(place, o, mesh, facts, warnings);
+  const std::shared_ptr<const Closed_surface> surface = read_beside_mesh(place, options, mesh, mesh_file,
+                                                                         facts, warnings);
   return [&mesh, surface](const mm3::Face& face) { return surface->contains(center_of(mesh, face)); };
 }
 
-void mark(const Mesh& mesh, const std::vector<std::string>& places, Patch patch, const Options& o,
-          std::vector<std::string>& warnings, Boundary_patches& patches)
+void mark(const Mesh& mesh, const std::string& mesh_file, const std::vector<std::string>& places, Patch patch,
+          const mm3::IO::Read_anatomical_surface_options& options, std::vector<std::string>& warnings,
+          Boundary_patches& patches)
 {
   for(const std::string& place : places) {
     if(place == base_patch)
       continue; // defined by the height of vertices
     const Contains contains = place == skull_patch ? [](const mm3::Face&) { return true; }
-                                                   : read_patch(mesh, place, o, warnings);
+                                                   : read_patch(mesh, mesh_file, place, options, warnings);
     bool is_empty = true;
     for(std::size_t i = 0; i < patches.faces.size(); ++i)
       if(contains(patches.faces[i])) {
@@ -56,7 +61,7 @@ void mark(const Mesh& mesh, const std::vector<std::string>& places, Patch patch,
       }
     if(is_empty)
       throw std::runtime_error(
-        place + ": no face of the boundary of " + o.mesh
+        place + ": no face of the boundary of " + mesh_file
         + (label_of(place) ? " has this label" : " has its center inside; " + place_of_mesh(mesh)));
   }
 }
@@ -76,18 +81,31 @@ Key key_of(const mm3::Face& face, const std::vector<Mesh::Vertex_index>& vertice
 
 } // namespace
 
-Boundary_patches find_patches(const Mesh& mesh, const Options& o, std::vector<std::string>& warnings)
+std::optional<int> label_of(const std::string& patch)
+{
+  int label = 0;
+  const std::string prefix = label_prefix;
+  const char* const end = patch.data() + patch.size();
+  if(patch.rfind(prefix, 0) != 0)
+    return std::nullopt;
+  const auto [rest, error] = std::from_chars(patch.data() + prefix.size(), end, label);
+  return error == std::errc() && rest == end && label > 0 ? std::optional<int>(label) : std::nullopt;
+}
+
+Boundary_patches find_patches(const Mesh& mesh, const std::string& mesh_file, const Patch_options& o,
+                              const mm3::IO::Read_anatomical_surface_options& surface_options,
+                              std::vector<std::string>& warnings)
 {
   Boundary_patches patches;
   patches.of_vertices.assign(mesh.number_of_vertices(), Patch::NONE);
-  if(!o.has_patches())
+  if(!o.are_given())
     return patches;
   patches.faces = mm3::boundary_faces(mesh);
   patches.of_faces.assign(patches.faces.size(), Patch::NONE);
-  mark(mesh, o.openings, Patch::OPENING, o, warnings, patches);
-  mark(mesh, o.fixed_patches, Patch::FIXED, o, warnings, patches);
-  mark(mesh, o.sliding_patches, Patch::SLIDING, o, warnings, patches);
-  mark(mesh, o.touching_patches, Patch::TOUCHING, o, warnings, patches);
+  mark(mesh, mesh_file, o.openings, Patch::OPENING, surface_options, warnings, patches);
+  mark(mesh, mesh_file, o.fixed, Patch::FIXED, surface_options, warnings, patches);
+  mark(mesh, mesh_file, o.sliding, Patch::SLIDING, surface_options, warnings, patches);
+  mark(mesh, mesh_file, o.touching, Patch::TOUCHING, surface_options, warnings, patches);
 
   // Stronger patches at a vertex come later; an opening has to have all faces of the vertex.
   for(Patch patch : {Patch::OPENING, Patch::NONE, Patch::TOUCHING, Patch::SLIDING, Patch::FIXED})
@@ -100,10 +118,9 @@ Boundary_patches find_patches(const Mesh& mesh, const Options& o, std::vector<st
 
 std::vector<mm3::IO::Facet_set> facet_sets(const Mesh& mesh,
                                            const std::vector<Mesh::Vertex_index>& vertices_before,
-                                           const Boundary_patches& patches, const Supports& supports,
-                                           const Options& o)
+                                           const Boundary_patches& patches, const Supports& supports)
 {
-  if(!o.has_patches())
+  if(patches.faces.empty())
     return {};
   std::map<Key, Patch> patch_of;
   for(std::size_t i = 0; i < patches.faces.size(); ++i)

@@ -20,9 +20,9 @@ namespace mm3 = CGAL::Mixed_meshes_3;
 
 namespace {
 
-Json describe_mesh(const Options& o, const Outcome& outcome)
+Json describe_mesh(const std::string& file, const Outcome& outcome)
 {
-  Json report = {{"file", o.mesh}, {"vertices", outcome.mesh.vertices}, {"elements", outcome.mesh.elements}};
+  Json report = {{"file", file}, {"vertices", outcome.mesh.vertices}, {"elements", outcome.mesh.elements}};
   add_kinds(outcome.mesh, report);
   report["volume"] = outcome.volume;
   return report;
@@ -33,9 +33,9 @@ Json describe(const Surface_facts& s)
   return {{"file", s.file}, {"triangles", s.triangles}, {"volume", s.volume}, {"repairs", s.repairs}};
 }
 
-Json describe(const Image_facts& image, const Options& o)
+Json describe(const Image_facts& image, const std::string& file)
 {
-  return {{"file", o.image},
+  return {{"file", file},
           {"voxels", image.voxels},
           {"volume of a voxel", image.volume_of_voxel},
           {"world (NIfTI's number)", image.world},
@@ -51,24 +51,28 @@ Json parameters_of(const Options& o)
   return {{"Young's modulus", quantity(o.material.young_modulus, "kPa")},
           {"Poisson's ratio", quantity(o.material.poisson_ratio, "1")},
           {"density", quantity(o.density, "g/cm^3")},
-          {"density of the fluid", quantity(o.fluid_density, "g/cm^3")},
-          {"level of the fluid", quantity(std::isfinite(o.fluid_level) ? Json(o.fluid_level) : Json(), "mm")},
-          {"gravity", quantity(o.acceleration, "mm/s^2")},
-          {"up", quantity(o.up_direction, "1")},
-          {"fixed below", quantity(o.fixed_below, "height")},
-          {"slide below", quantity(o.slide_below, "height")},
-          {"fixed patches", o.fixed_patches},
-          {"sliding patches", o.sliding_patches},
-          {"touching patches", o.touching_patches},
-          {"openings", o.openings},
-          {"slide beyond", quantity(std::isfinite(o.slide_beyond) ? Json(o.slide_beyond) : Json(), "mm")},
-          {"largest distance of control points", quantity(o.max_distance, "mm")},
-          {"compliance of control points", quantity(o.compliance, "mm/mN")},
-          {"radius of control points", quantity(o.control_radius, "mm")},
-          {"rotations", o.corotational ? "finite (corotational elements)" : "small"},
+          {"density of the fluid", quantity(o.model.fluid_density, "g/cm^3")},
+          {"level of the fluid",
+           quantity(std::isfinite(o.model.fluid_level) ? Json(o.model.fluid_level) : Json(), "mm")},
+          {"gravity", quantity(o.model.acceleration, "mm/s^2")},
+          {"up", quantity(o.model.supports.up, "1")},
+          {"fixed below", quantity(o.model.supports.fixed_below, "height")},
+          {"slide below", quantity(o.model.supports.slide_below, "height")},
+          {"fixed patches", o.patches.fixed},
+          {"sliding patches", o.patches.sliding},
+          {"touching patches", o.patches.touching},
+          {"openings", o.patches.openings},
+          {"slide beyond",
+           quantity(std::isfinite(o.model.supports.slide_beyond) ? Json(o.model.supports.slide_beyond)
+                                                                 : Json(),
+                    "mm")},
+          {"largest distance of control points", quantity(o.model.points.max_distance, "mm")},
+          {"compliance of control points", quantity(o.model.points.compliance, "mm/mN")},
+          {"radius of control points", quantity(o.model.points.radius, "mm")},
+          {"rotations", o.model.corotational ? "finite (corotational elements)" : "small"},
           {"space of surfaces", space_of(o.surface_options)},
           {"interpolation between vertices",
-           o.interpolation == mm3::Displacement_interpolation::LINEAR ? "linear" : "recovered"},
+           o.images.interpolation == mm3::Displacement_interpolation::LINEAR ? "linear" : "recovered"},
           {"order of output", o.output_order}};
 }
 
@@ -176,7 +180,7 @@ Json describe_rims(const std::vector<Rim_facts>& rims)
 }
 
 // The largest displacement in words, beside the largest measured one, which may be smaller.
-std::string largest_shift(const Shift& shift, const Options& o, const std::vector<Control_point>& points)
+std::string largest_shift(const Shift& shift, double control_radius, const std::vector<Control_point>& points)
 {
   constexpr double notable = 1.1; // times as much; a difference of less than a tenth needs no reason
   const std::string text = "up to " + rounded(shift.largest) + " mm";
@@ -186,11 +190,10 @@ std::string largest_shift(const Shift& shift, const Options& o, const std::vecto
       measured = (std::max)(measured, norm(Vector(points[i].displacement)));
   if(measured == 0 || shift.largest < notable * measured)
     return text;
-  const std::string why = o.control_radius > 0
-                            ? ": the mean within " + rounded(o.control_radius)
-                                + " mm of a control point is prescribed (--control-radius), "
-                                  "and its middle moves farther"
-                            : "";
+  const std::string why = control_radius > 0 ? ": the mean within " + rounded(control_radius)
+                                                 + " mm of a control point is prescribed (--control-radius), "
+                                                   "and its middle moves farther"
+                                             : "";
   return text + " at " + place(shift.at) + ", more than the " + rounded(measured) + " mm measured" + why;
 }
 
@@ -212,16 +215,16 @@ Json report(const Options& o, const Outcome& outcome, const Stage_log& log)
 {
   Json report;
   report["program"] = describe_program("brain_shift");
-  report["inputs"] = {{"mesh", describe_mesh(o, outcome)},
+  report["inputs"] = {{"mesh", describe_mesh(o.model.mesh, outcome)},
                       {"control points",
-                       {{"file", o.control_points},
+                       {{"file", o.model.points.file},
                         {"file of points after",
-                         o.control_points_after.empty() ? Json() : Json(o.control_points_after)},
+                         o.model.points.file_after.empty() ? Json() : Json(o.model.points.file_after)},
                         {"number", outcome.points.size()}}},
                       {"tumor", outcome.tumor ? describe(*outcome.tumor) : Json()},
                       {"label of the tumor", o.tumor_label.empty() ? Json() : Json(o.tumor_label)},
-                      {"image", outcome.image ? describe(*outcome.image, o) : Json()},
-                      {"labels", o.labels.empty() ? Json() : Json(o.labels)}};
+                      {"image", outcome.image ? describe(*outcome.image, o.images.file) : Json()},
+                      {"labels", o.images.labels.empty() ? Json() : Json(o.images.labels)}};
   report["parameters"] = parameters_of(o);
   report["units"] = {{"lengths", "mm"},
                      {"areas", "mm^2"},
@@ -245,7 +248,9 @@ Json report(const Options& o, const Outcome& outcome, const Stage_log& log)
                         {"touching", outcome.supports.touching}};
   report["adaptation"] = outcome.adaptation ? describe(*outcome.adaptation) : Json();
   report["control points"] = describe_points(outcome);
-  report["landmarks"] = outcome.landmarks ? describe_landmarks(o, *outcome.landmarks) : Json();
+  report["landmarks"] = outcome.landmarks
+                          ? describe_landmarks(o.model.landmarks, o.model.corotational, *outcome.landmarks)
+                          : Json();
   report["shift"] = describe(outcome.before, outcome.points);
   report["resection"] = outcome.resection ? describe(*outcome.resection) : Json();
   report["shift after resection"] = outcome.after ? describe(*outcome.after, outcome.points) : Json();
@@ -253,7 +258,7 @@ Json report(const Options& o, const Outcome& outcome, const Stage_log& log)
     report["image"] = {{"voxels of tissue", outcome.image->voxels_of_tissue},
                        {"voxels resected", outcome.image->voxels_resected},
                        {"elements with linear interpolation", outcome.image->linear_elements}};
-  if(!o.labels.empty())
+  if(!o.images.labels.empty())
     report["image"]["labels with a rim"] = describe_rims(outcome.image->rims);
   report["outputs"] = outputs_of(o);
   report["warnings"] = outcome.warnings;
@@ -297,7 +302,8 @@ void print_summary(const Options& o, const Outcome& outcome, const Stage_log& lo
   if(outcome.petsc)
     std::cout << "PETSc: " << counted(std::size_t(outcome.petsc->processes), "process", "processes")
               << ", up to " << outcome.petsc->iterations << " iterations\n";
-  std::cout << "shift: " << largest_shift(outcome.before, o, outcome.points) << "; " << time("solve") << '\n';
+  std::cout << "shift: " << largest_shift(outcome.before, o.model.points.radius, outcome.points) << "; "
+            << time("solve") << '\n';
   if(outcome.supports.touching > 0)
     std::cout << "contact: " << counted(outcome.before.closed_contacts, "vertex", "vertices")
               << " still at the skull, which pushes with " << rounded(outcome.before.contact_force)
@@ -306,13 +312,13 @@ void print_summary(const Options& o, const Outcome& outcome, const Stage_log& lo
     std::cout << "control points: each is predicted by the others to " << rounded(*outcome.before.left_out)
               << " mm (root mean square)\n";
   if(outcome.landmarks)
-    print_landmarks(o, *outcome.landmarks);
+    print_landmarks(o.model.landmarks, o.model.corotational, *outcome.landmarks);
   if(outcome.resection)
     std::cout << "resection: " << outcome.resection->removed << " elements, "
               << rounded(outcome.resection->volume / 1000) << " ml; shift up to "
               << rounded(outcome.after->largest) << " mm; " << time("remove elements") << " and "
               << time("solve after resection") << '\n';
-  if(!o.image.empty())
+  if(!o.images.file.empty())
     std::cout << "image: " << time("warp image") << '\n';
   for(const std::string& path : outputs_of(o))
     std::cout << "wrote " << printable(path) << '\n';

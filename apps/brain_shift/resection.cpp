@@ -18,11 +18,12 @@
 
 namespace mm3 = CGAL::Mixed_meshes_3;
 
-std::unique_ptr<const Closed_surface> read_beside_mesh(const std::string& path, const Options& o,
-                                                       const Mesh& mesh, Surface_facts& facts,
-                                                       std::vector<std::string>& warnings)
+std::unique_ptr<const Closed_surface>
+read_beside_mesh(const std::string& path, const mm3::IO::Read_anatomical_surface_options& options,
+                 const Mesh& mesh, const std::string& mesh_file, Surface_facts& facts,
+                 std::vector<std::string>& warnings)
 {
-  auto surface = std::make_unique<const Closed_surface>(path, o.surface_options, facts, warnings);
+  auto surface = std::make_unique<const Closed_surface>(path, options, facts, warnings);
   const mm3::Element_locator_3<Mesh> locator(mesh);
   const CGAL::Bbox_3 box = box_of(coordinates_of(mesh.points()));
   const std::string defect = misfit(surface->points(), box, [&locator](const std::array<double, 3>& p) {
@@ -30,7 +31,7 @@ std::unique_ptr<const Closed_surface> read_beside_mesh(const std::string& path, 
   });
   if(defect.empty())
     return surface;
-  const std::string text = path + ": beside " + o.mesh + ", it " + defect;
+  const std::string text = path + ": beside " + mesh_file + ", it " + defect;
   if(!CGAL::do_overlap(box, box_of(surface->points())))
     throw std::runtime_error(text); // no element could be resected
   warnings.push_back(text);
@@ -64,21 +65,19 @@ Resection_facts resection_facts(const mm3::Resection_3& r)
 
 } // namespace
 
-std::vector<bool> resect(const Mesh& mesh, const Tumor& tumor, const Options& o, Outcome& outcome)
+std::vector<bool> resect(const Mesh& mesh, const Tumor& tumor, Outcome& outcome)
 {
   const mm3::Resection_3 r = tumor.surface != nullptr ? mm3::resect(mesh, tumor.surface->domain())
                                                       : resect_subdomain(mesh, *tumor.subdomain);
-  const std::string name = tumor.surface != nullptr ? tumor.surface->path()
-                                                    : o.mesh + ": subdomain " + o.tumor_label;
   if(r.status != mm3::Resection_status::SUCCESS)
-    throw std::runtime_error(name + ": " + mm3::description(r.status));
+    throw std::runtime_error(tumor.name + ": " + mm3::description(r.status));
   if(!r.floating.empty())
-    outcome.warnings.push_back(name + ": tissue outside comes loose, and is removed: "
+    outcome.warnings.push_back(tumor.name + ": tissue outside comes loose, and is removed: "
                                + counted(r.floating.size(), "piece", "pieces"));
   // The numbers are expected for a surface: no face of the mesh lies on it.
   if(tumor.subdomain && r.number_of_restored_elements + r.number_of_pinch_elements != 0)
     outcome.warnings.push_back(
-      name + ": what is left would touch itself at an edge or a vertex; so "
+      tumor.name + ": what is left would touch itself at an edge or a vertex; so "
       + counted(r.number_of_restored_elements, "element stays", "elements stay") + ", and "
       + counted(r.number_of_pinch_elements, "other one is removed", "others are removed"));
   outcome.resection = resection_facts(r);

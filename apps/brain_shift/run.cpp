@@ -73,53 +73,60 @@ std::size_t number_of_points(const Outcome& outcome)
 Inputs read_inputs(const Options& o, Stage_log& log, Outcome& outcome)
 {
   Inputs inputs;
-  if(!o.landmarks.empty())
-    outcome.landmarks = read_landmarks(o);
-  outcome.points = o.are_landmarks_control_points ? outcome.landmarks->points
-                   : o.control_points_after.empty()
-                     ? read_control_points(o.control_points)
-                     : read_fiducials(o.control_points, o.control_points_after);
+  if(!o.model.landmarks.file.empty())
+    outcome.landmarks = read_landmarks(o.model.landmarks);
+  outcome.points = o.model.landmarks.are_control_points ? outcome.landmarks->points
+                   : o.model.points.file_after.empty()
+                     ? read_control_points(o.model.points.file)
+                     : read_fiducials(o.model.points.file, o.model.points.file_after);
   if(!o.quiet)
     tell_of_many_points(number_of_points(outcome));
-  if(o.compliance == 0 && std::any_of(outcome.points.begin(), outcome.points.end(), [](const auto& p) {
-       return p.weight != 1;
-     }))
+  if(o.model.points.compliance == 0
+     && std::any_of(outcome.points.begin(), outcome.points.end(),
+                    [](const auto& p) { return p.weight != 1; }))
     outcome.warnings.push_back("the weights of control points are not used: without --control-compliance, "
                                "displacements are exact");
-  inputs.mesh = log("read mesh", [&] { return read_mesh(o.mesh, inputs.subdomain_names, outcome.warnings); });
+  inputs.mesh = log("read mesh",
+                    [&] { return read_mesh(o.model.mesh, inputs.subdomain_names, outcome.warnings); });
   outcome.mesh = facts_of(inputs.mesh);
   outcome.volume = mm3::volume(inputs.mesh);
-  outcome.subdomains = find_subdomains(inputs.mesh, inputs.subdomain_names, o);
+  outcome.subdomains = find_subdomains(inputs.mesh, o.model.mesh, inputs.subdomain_names, o.material,
+                                       o.materials);
   // The response of each vertex and control point to each control point: 3 x 3 numbers.
   const std::size_t n = number_of_points(outcome);
-  check_memory((n == outcome.points.size() ? o.control_points : o.landmarks) + ": " + std::to_string(n)
-                 + " control points",
+  check_memory((n == outcome.points.size() ? o.model.points.file : o.model.landmarks.file) + ": "
+                 + std::to_string(n) + " control points",
                72 * double(n) * double(outcome.mesh.vertices + 2 * n));
   outcome.locations = log("locate control points", [&] {
-    return locate(inputs.mesh, o, o.control_points, outcome.points, outcome.warnings);
+    return locate(inputs.mesh, {o.model.mesh, o.model.points, outcome.points}, outcome.warnings);
   });
   if(!o.tumor.empty())
     inputs.tumor.surface = log("read tumor", [&] {
-      return read_beside_mesh(o.tumor, o, inputs.mesh, outcome.tumor.emplace(), outcome.warnings);
+      return read_beside_mesh(o.tumor, o.surface_options, inputs.mesh, o.model.mesh, outcome.tumor.emplace(),
+                              outcome.warnings);
     });
   if(!o.tumor_label.empty())
-    inputs.tumor.subdomain = find_subdomain(outcome.subdomains, o.tumor_label, o).index;
-  inputs.patches = find_patches(inputs.mesh, o, outcome.warnings);
+    inputs.tumor.subdomain = find_subdomain(outcome.subdomains, o.tumor_label, o.model.mesh).index;
+  inputs.tumor.name = o.tumor_label.empty() ? o.tumor : o.model.mesh + ": subdomain " + o.tumor_label;
+  inputs.patches = find_patches(inputs.mesh, o.model.mesh, o.patches, o.surface_options, outcome.warnings);
   if(o.adapt) {
-    log("adapt mesh", [&] { adapt(inputs.mesh, inputs.patches, o, outcome); });
+    log("adapt mesh", [&] {
+      adapt(inputs.mesh, o.model.mesh, inputs.patches, o.model.supports, o.model.points.radius, outcome);
+    });
     outcome.volume = mm3::volume(inputs.mesh);
     std::vector<std::string> known_warnings;
-    outcome.locations = locate(inputs.mesh, o, o.control_points, outcome.points, known_warnings);
+    outcome.locations = locate(inputs.mesh, {o.model.mesh, o.model.points, outcome.points}, known_warnings);
   }
   if(outcome.landmarks)
     log("registrations", [&] {
-      place_landmarks(inputs.mesh, o, outcome);
+      place_landmarks(inputs.mesh, o.model.mesh, o.model.landmarks, outcome);
       compare_registrations(*outcome.landmarks);
     });
-  if(!o.image.empty())
-    inputs.image = log("read image", [&] { return read_image(o, inputs.mesh, outcome); });
-  if(!o.labels.empty())
-    inputs.labels = log("read labels", [&] { return read_labels(o, inputs.image.grid); });
+  if(!o.images.file.empty())
+    inputs.image = log("read image",
+                       [&] { return read_image(o.images.file, inputs.mesh, o.model.mesh, outcome); });
+  if(!o.images.labels.empty())
+    inputs.labels = log("read labels", [&] { return read_labels(o.images, inputs.image.grid); });
   return inputs;
 }
 
@@ -148,27 +155,28 @@ std::vector<double> of_nodes(const Mesh& mesh, int order, const Order_facts& fac
 
 // Writes the former mesh, with displacements.
 void write_meshes(mm3::IO::Output_files& files, const Inputs& inputs, const std::vector<bool>& is_removed,
-                  const Options& o, const Outcome& outcome)
+                  const std::vector<std::string>& paths, int order, const Outcome& outcome)
 {
   const Mesh& mesh = inputs.mesh;
-  const std::vector<double> last = of_nodes(mesh, o.output_order, outcome.order, outcome.last()),
-                            before = of_nodes(mesh, o.output_order, outcome.order, outcome.before),
+  const std::vector<double> last = of_nodes(mesh, order, outcome.order, outcome.last()),
+                            before = of_nodes(mesh, order, outcome.order, outcome.before),
                             resected(is_removed.begin(), is_removed.end());
   mm3::IO::Write_options data;
-  data.order = o.output_order;
+  data.order = order;
   data.vertex_data.push_back({"displacement", &last, 3});
   if(outcome.resection)
     data.vertex_data.push_back({"displacement_before_resection", &before, 3});
-  data.facet_sets = facet_sets(mesh, {}, inputs.patches, outcome.supports, o);
+  data.facet_sets = facet_sets(mesh, {}, inputs.patches, outcome.supports);
   data.subdomain_names = inputs.subdomain_names;
   mm3::IO::Write_options data_of_vtu = data; // other formats have no data of elements
   data_of_vtu.element_data.push_back({"resected", &resected});
-  for(const std::string& path : o.outputs)
+  for(const std::string& path : paths)
     write_mesh(files, path, mesh, mm3::IO::format_of(path) == mm3::IO::Format::VTU ? data_of_vtu : data);
 }
 
 void write_deformed_meshes(mm3::IO::Output_files& files, const Remaining_mesh& remaining,
-                           const Inputs& inputs, const Options& o, const Outcome& outcome)
+                           const Inputs& inputs, const std::vector<std::string>& paths,
+                           const Outcome& outcome)
 {
   Mesh deformed = remaining.mesh;
   for(std::size_t v = 0; v < deformed.number_of_vertices(); ++v) {
@@ -176,9 +184,9 @@ void write_deformed_meshes(mm3::IO::Output_files& files, const Remaining_mesh& r
     deformed.points()[v] = deformed.points()[v] + Kernel::Vector_3(u[0], u[1], u[2]);
   }
   mm3::IO::Write_options with_sets;
-  with_sets.facet_sets = facet_sets(deformed, remaining.vertices, inputs.patches, outcome.supports, o);
+  with_sets.facet_sets = facet_sets(deformed, remaining.vertices, inputs.patches, outcome.supports);
   with_sets.subdomain_names = inputs.subdomain_names;
-  for(const std::string& path : o.deformed_outputs)
+  for(const std::string& path : paths)
     write_mesh(files, path, deformed, with_sets);
 }
 
@@ -189,7 +197,7 @@ Page_data page_data(const Inputs& inputs, const std::vector<bool>& is_removed, c
 {
   Page_data data{o.command, inputs.subdomain_names, true, {{"shifted", flat(outcome.before.displacements)}}};
   data.files = inputs_of(o);
-  data.files.push_back(o.output_image);
+  data.files.push_back(o.images.output);
   for(const std::string& path : outputs_of(o))
     data.files.push_back(path);
   if(outcome.after)
@@ -202,15 +210,16 @@ void write_files(const Inputs& inputs, const std::vector<bool>& is_removed, cons
 {
   const Deferred_signals deferred({SIGINT, SIGTERM, SIGHUP}, Deferred_signals::Second::DEFERRED);
   mm3::IO::Output_files files([] { return !Deferred_signals::has_come(); }); // appear together, at the end
-  if(!o.image.empty())
-    write_images(files, inputs.image, inputs.labels, inputs.mesh, inputs.tumor, is_removed, o, log, outcome);
+  if(!o.images.file.empty())
+    write_images(files, inputs.image, inputs.labels, inputs.mesh, inputs.tumor, is_removed, o.images, log,
+                 outcome);
   log("write meshes", [&] {
-    write_meshes(files, inputs, is_removed, o, outcome);
-    write_deformed_meshes(files, remaining, inputs, o, outcome);
+    write_meshes(files, inputs, is_removed, o.outputs, o.output_order, outcome);
+    write_deformed_meshes(files, remaining, inputs, o.deformed_outputs, outcome);
     if(!o.febio.empty())
-      write_febio(files, remaining,
-                  facet_sets(remaining.mesh, remaining.vertices, inputs.patches, outcome.supports, o),
-                  inputs.subdomain_names, o, outcome);
+      write_febio(files, o.febio, remaining,
+                  facet_sets(remaining.mesh, remaining.vertices, inputs.patches, outcome.supports),
+                  inputs.subdomain_names, o.model, outcome);
   });
   if(!o.page.empty())
     log("write page", [&] {
@@ -236,9 +245,10 @@ void run(const Options& o)
   Stage_log log(!o.quiet);
   Outcome outcome;
   const Inputs inputs = read_inputs(o, log, outcome);
-  const std::vector<bool> is_removed = simulate(inputs.mesh, inputs.tumor, inputs.patches, o, log, outcome);
+  const std::vector<bool> is_removed = simulate(inputs.mesh, inputs.tumor, inputs.patches, o.model, log,
+                                                outcome);
   if(outcome.landmarks)
-    warn_of_landmarks(o, outcome);
+    warn_of_landmarks(o.model.landmarks.file, outcome);
   const Remaining_mesh remaining = remaining_mesh(inputs.mesh, is_removed, outcome);
   termination.reset(); // files are removed first
   write_files(inputs, is_removed, remaining, o, log, outcome);

@@ -8,7 +8,6 @@
 #include "brain_shift/landmark_model.h"
 #include "brain_shift/solve.h"
 #include "brain_shift/subdomains.h"
-#include "brain_shift/supports.h"
 #include "core/messages.h"
 #include "core/resources.h"
 
@@ -42,7 +41,7 @@ void set_supports(Elasticity& elasticity, const Supports& supports)
 
 // Chooses the order of displacements. The force on a single point makes a dent that is the deeper, the finer
 // the displacement, and inverts elements sooner.
-void set_order(Elasticity& elasticity, const Options& o, Outcome& outcome)
+void set_order(Elasticity& elasticity, const Model_options& o, Outcome& outcome)
 {
   constexpr double width = 4; // mm around the region; with less, elements behind it are the ones that err
   const Mesh& mesh = elasticity.mesh();
@@ -50,9 +49,9 @@ void set_order(Elasticity& elasticity, const Options& o, Outcome& outcome)
   const bool may_be_2 = o.order == Displacement_order::DEFAULT
                         && Elasticity::recommended_order(mesh.number_of_vertices()) == 2;
   if(may_be_2)
-    facts.reason = option_of_order_1(o).empty() && o.control_radius == 0
+    facts.reason = o.option_of_order_1.empty() && o.points.radius == 0
                      ? "control points without --control-radius"
-                     : option_of_order_1(o);
+                     : o.option_of_order_1;
   if(o.order == Displacement_order::REGION) {
     facts.order = "region";
     elasticity.order_2_within(width);
@@ -172,7 +171,7 @@ void measure_controls(const Elasticity& elasticity, const Outcome& outcome, cons
     shift.left_out = std::sqrt(squares_left_out / double(predicted));
 }
 
-Shift shift_of(const Elasticity& elasticity, const Options& o, const std::vector<bool>& is_used,
+Shift shift_of(const Elasticity& elasticity, const Model_options& o, const std::vector<bool>& is_used,
                const std::string& when, Outcome& outcome)
 {
   const Mesh& mesh = elasticity.mesh();
@@ -199,7 +198,7 @@ Shift shift_of(const Elasticity& elasticity, const Options& o, const std::vector
     shift.contact_force += force;
   }
   measure_controls(elasticity, outcome, is_used, o.leave_one_out && !elasticity.is_iterative(), shift);
-  if(o.is_exact() && shift.largest_miss > 1e-6 * (1 + shift.largest)) // a defect of the program
+  if(o.points.is_exact() && shift.largest_miss > 1e-6 * (1 + shift.largest)) // a defect of the program
     throw std::logic_error(when + ": control points are missed by up to " + rounded(shift.largest_miss)
                            + " mm");
   return shift;
@@ -216,7 +215,7 @@ void tell_of_solver([[maybe_unused]] Elasticity& elasticity, [[maybe_unused]] Ou
 // Notes the memory of a factorization before it begins: afterwards there may be no memory for a note. Numbers
 // are those of the table in the manual: the factor of CHOLMOD grows with n^(4/3), that of PETSc with n.
 void tell_of_factor([[maybe_unused]] const Mesh& mesh, [[maybe_unused]] const Order_facts& order,
-                    [[maybe_unused]] const Options& o, [[maybe_unused]] Stage_log& log)
+                    [[maybe_unused]] const std::string& mesh_file, [[maybe_unused]] Stage_log& log)
 {
 #if !MIXED_MESH_3_HAS_PETSC
   constexpr double measured = 53799, bytes_by_iteration = 5e3; // unknowns, and bytes for each
@@ -224,20 +223,20 @@ void tell_of_factor([[maybe_unused]] const Mesh& mesh, [[maybe_unused]] const Or
   constexpr double sure = 0.6;                                 // share of the estimate that any mesh needs
   const double unknowns = double(order.unknowns);
   const double needed = bytes * unknowns * std::cbrt(unknowns / measured);
-  if(!o.quiet && needed > double(1 << 30))
+  if(needed > double(1 << 30))
     log.note("factoring the matrix of " + std::to_string(mesh.number_of_vertices()) + " vertices "
              + (order.edges.empty() ? "" : "and " + std::to_string(order.edges.size()) + " edges ")
              + "takes about " + gibibytes(needed)
              + " of memory, and its time grows with the square of their number; "
              + "--solver petsc iterates, with about " + gibibytes(bytes_by_iteration * unknowns));
-  check_memory(o.mesh + ": without --solver petsc, the factor", sure * needed);
+  check_memory(mesh_file + ": without --solver petsc, the factor", sure * needed);
 #endif
 }
 
 // The constraints of a solution. With a compliance, means are the resulting ones: they give the same
 // displacements, without the springs.
 Motion_constraints constraints_of(const Elasticity& elasticity, std::vector<Vector> displacements,
-                                  const Options& o)
+                                  bool has_compliance)
 {
   Motion_constraints constraints{{},
                                  elasticity.control_weights(),
@@ -246,7 +245,7 @@ Motion_constraints constraints_of(const Elasticity& elasticity, std::vector<Vect
   const std::size_t nodes = elasticity.mesh().number_of_vertices() + elasticity.quadratic_edges().size();
   for(mm3::Vertex_index v = 0; v < nodes; ++v)
     constraints.held_directions.push_back(elasticity.held_directions(v));
-  if(o.compliance > 0) {
+  if(has_compliance) {
     const std::vector<Vector> residuals = elasticity.control_residuals();
     for(std::size_t i = 0; i < residuals.size(); ++i)
       constraints.means[i] = constraints.means[i] - residuals[i];
@@ -256,85 +255,89 @@ Motion_constraints constraints_of(const Elasticity& elasticity, std::vector<Vect
 
 // Computes errors of predictions by landmarks, except errors known from the shift if landmarks are its
 // control points.
-void predict_landmarks(Elasticity& elasticity, const Options& o, Outcome& outcome)
+void predict_landmarks(Elasticity& elasticity, const Controls& landmarks, bool are_control_points,
+                       Outcome& outcome)
 {
-  measure_by_outermost(elasticity, o, outcome);
-  if(o.are_landmarks_control_points)
+  measure_by_outermost(elasticity, landmarks, outcome);
+  if(are_control_points)
     return;
-  const Controls landmarks = controls_of_landmarks(o, *outcome.landmarks);
-  set_control_points(elasticity, o, landmarks);
-  solve(elasticity, o, landmarks);
+  set_control_points(elasticity, landmarks);
+  solve(elasticity, landmarks);
   measure_left_out(elasticity, outcome);
 }
 
 // Measures errors at landmarks that are known from the shift.
-void measure_landmarks(const Elasticity& elasticity, const Options& o, Outcome& outcome)
+void measure_landmarks(const Elasticity& elasticity, bool are_control_points, Outcome& outcome)
 {
-  if(o.are_landmarks_control_points)
+  if(are_control_points)
     measure_left_out(elasticity, outcome);
   else
     measure_shift(elasticity, outcome);
 }
 
 // Solves after the removal of elements.
-void remove(Elasticity& elasticity, const std::vector<bool>& is_removed, const Options& o, Stage_log& log,
-            Outcome& outcome)
+void remove(Elasticity& elasticity, const std::vector<bool>& is_removed, const Model_options& o,
+            Stage_log& log, Outcome& outcome)
 {
   // Control points in removed tissue move nothing.
-  Controls left{o.control_points, {}, o.compliance};
+  Controls left{o.mesh, o.points, {}};
   std::vector<bool> is_used;
   for(std::size_t i = 0; i < outcome.points.size(); ++i) {
     is_used.push_back(!is_removed[outcome.locations[i].element]);
     if(is_used.back()) {
       left.points.push_back(outcome.points[i]);
     } else {
-      outcome.warnings.push_back(o.control_points + ": " + outcome.points[i].place()
+      outcome.warnings.push_back(o.points.file + ": " + outcome.points[i].place()
                                  + ": the control point is in tissue removed: it is not used after the "
                                    "resection");
     }
   }
   if(left.points.size() != outcome.points.size())
-    log("control points", [&] { set_control_points(elasticity, o, left); });
-  log("remove elements", [&] { check(elasticity.remove_elements(is_removed), o, left); });
-  log("solve after resection", [&] { solve(elasticity, o, left); });
-  if(!o.febio.empty())
-    outcome.constraints = constraints_of(elasticity, left.displacements(), o);
+    log("control points", [&] { set_control_points(elasticity, left); });
+  log("remove elements", [&] { check(elasticity.remove_elements(is_removed), left); });
+  log("solve after resection", [&] { solve(elasticity, left); });
+  if(o.keeps_constraints)
+    outcome.constraints = constraints_of(elasticity, left.displacements(), o.points.compliance > 0);
   outcome.after = log("checks",
                       [&] { return shift_of(elasticity, o, is_used, "shift after resection", outcome); });
 }
 
 std::vector<bool> simulate_in_order(const Mesh& mesh, const Tumor& tumor, const Boundary_patches& patches,
-                                    const Options& o, Stage_log& log, Outcome& outcome)
+                                    const Model_options& o, Stage_log& log, Outcome& outcome)
 {
-  const Controls controls{o.control_points, outcome.points, o.compliance};
+  const Controls controls{o.mesh, o.points, outcome.points};
   Elasticity elasticity(mesh, materials_of_elements(mesh, outcome.subdomains));
-  outcome.supports = find_supports(mesh, patches, o, outcome.points);
+  outcome.supports = find_supports(mesh, patches, o.supports, outcome.points);
   set_supports(elasticity, outcome.supports);
 
   set_order(elasticity, o, outcome);
-  tell_of_factor(mesh, outcome.order, o, log);
+  tell_of_factor(mesh, outcome.order, o.mesh, log);
   // The mesh is factored before surgery; then each measurement takes milliseconds.
-  log("factor", [&] { check(elasticity.factor(), o, controls); });
+  log("factor", [&] { check(elasticity.factor(), controls); });
   elasticity.set_corotational(o.corotational);
   elasticity.set_gravity(o.acceleration);
   if(norm(Vector(o.acceleration)) > 0)
     elasticity.set_body_forces(
       mm3::buoyant_forces(mesh, o.acceleration, o.fluid_density * kg_per_mm3, o.fluid_level));
   if(outcome.landmarks)
-    log("landmarks", [&] { predict_landmarks(elasticity, o, outcome); });
-  log("control points", [&] { set_control_points(elasticity, o, controls); });
-  log("solve", [&] { solve(elasticity, o, controls); });
-  if(!o.febio.empty())
-    outcome.constraints = constraints_of(elasticity, controls.displacements(), o);
+    log("landmarks", [&] {
+      predict_landmarks(elasticity, {o.mesh, o.landmarks, outcome.landmarks->points},
+                        o.landmarks.are_control_points, outcome);
+    });
+  log("control points", [&] { set_control_points(elasticity, controls); });
+  log("solve", [&] { solve(elasticity, controls); });
+  if(o.keeps_constraints)
+    outcome.constraints = constraints_of(elasticity, controls.displacements(), o.points.compliance > 0);
   outcome.before = log("checks", [&] {
     return shift_of(elasticity, o, std::vector<bool>(outcome.points.size(), true), "shift", outcome);
   });
   if(outcome.landmarks)
-    log("errors at landmarks", [&] { measure_landmarks(elasticity, o, outcome); });
+    log("errors at landmarks",
+        [&] { measure_landmarks(elasticity, o.landmarks.are_control_points, outcome); });
   tell_of_solver(elasticity, outcome);
   if(!tumor.is_given())
     return std::vector<bool>(mesh.number_of_elements(), false);
-  const std::vector<bool> is_removed = log("resect", [&] { return resect(mesh, tumor, o, outcome); });
+  const std::vector<bool> is_removed = log("resect", [&] { return resect(mesh, tumor, outcome); });
   remove(elasticity, is_removed, o, log, outcome);
   tell_of_solver(elasticity, outcome);
   return is_removed;
@@ -343,14 +346,14 @@ std::vector<bool> simulate_in_order(const Mesh& mesh, const Tumor& tumor, const 
 } // namespace
 
 std::vector<bool> simulate(const Mesh& mesh, const Tumor& tumor, const Boundary_patches& patches,
-                           const Options& o, Stage_log& log, Outcome& outcome)
+                           const Model_options& o, Stage_log& log, Outcome& outcome)
 {
   const Outcome without = outcome;
   const std::vector<bool> is_removed = simulate_in_order(mesh, tumor, patches, o, log, outcome);
   const bool is_inverted = outcome.before.inverted_elements > 0 || outcome.last().inverted_elements > 0;
   if(o.order != Displacement_order::DEFAULT || outcome.order.order == "1" || !is_inverted)
     return is_removed;
-  Options linear = o;
+  Model_options linear = o;
   linear.order = Displacement_order::LINEAR;
   outcome = without;
   outcome.order.reason = "elements that order 2 would invert";

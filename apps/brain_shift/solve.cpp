@@ -5,7 +5,6 @@
 
 #include "brain_shift/solve.h"
 
-#include "brain_shift/locate.h"
 #include "core/messages.h"
 
 #include <stdexcept>
@@ -14,44 +13,35 @@ using Elasticity_status = CGAL::Linear_elasticity_status;
 
 namespace {
 
-[[noreturn]] void refuse(const CGAL::Linear_elasticity_result_3& result, const Options& o,
-                         const Controls& controls)
+[[noreturn]] void refuse(const CGAL::Linear_elasticity_result_3& result, const Controls& controls)
 {
   switch(result.status) {
   case Elasticity_status::CONTROL_POINT_OUTSIDE:
-    refuse_outside(o, controls.file, controls.points[result.control_point], result.distance);
+    refuse_outside(controls, controls.points[result.control_point], result.distance);
   case Elasticity_status::CONTRADICTORY_CONTROL_POINTS:
-    throw std::runtime_error(controls.file + ": " + controls.points[result.control_point].place()
+    throw std::runtime_error(controls.options.file + ": " + controls.points[result.control_point].place()
                              + ": the displacement contradicts those of other control points, or "
                                "supports, in the same element: it is missed by "
                              + rounded(result.distance) + " mm; see --control-compliance, --fixed-below");
   case Elasticity_status::FREE_RIGID_MOTION:
-    throw std::runtime_error(o.mesh + ": " + result.description()
+    throw std::runtime_error(controls.mesh + ": " + result.description()
                              + ", and the control points do not hold it; see --fixed-below");
   case Elasticity_status::NOT_CONVERGED:
-    throw std::runtime_error(o.mesh + ": " + result.description()
+    throw std::runtime_error(controls.mesh + ": " + result.description()
                              + "; --control-radius, or --control-compliance, would spread it");
-  default: throw std::runtime_error(o.mesh + ": " + result.description());
+  default: throw std::runtime_error(controls.mesh + ": " + result.description());
   }
 }
 
 } // namespace
 
-std::vector<Vector> Controls::displacements() const
-{
-  std::vector<Vector> displacements;
-  for(const Control_point& point : points)
-    displacements.push_back(point.displacement);
-  return displacements;
-}
-
-void check(const CGAL::Linear_elasticity_result_3& result, const Options& o, const Controls& controls)
+void check(const CGAL::Linear_elasticity_result_3& result, const Controls& controls)
 {
   if(!result.is_success())
-    refuse(result, o, controls);
+    refuse(result, controls);
 }
 
-void set_control_points(Elasticity& elasticity, const Options& o, const Controls& controls)
+void set_control_points(Elasticity& elasticity, const Controls& controls)
 {
   std::vector<Vector> positions;
   std::vector<double> weights;
@@ -59,9 +49,9 @@ void set_control_points(Elasticity& elasticity, const Options& o, const Controls
     positions.push_back(point.position);
     weights.push_back(point.weight);
   }
-  check(elasticity.set_control_points(positions, o.max_distance, controls.compliance, o.control_radius,
-                                      weights),
-        o, controls);
+  check(elasticity.set_control_points(positions, controls.options.max_distance, controls.options.compliance,
+                                      controls.options.radius, weights),
+        controls);
 }
 
 bool is_solution(const Elasticity& elasticity, const CGAL::Linear_elasticity_result_3& result)
@@ -70,9 +60,9 @@ bool is_solution(const Elasticity& elasticity, const CGAL::Linear_elasticity_res
          || (elasticity.is_corotational() && result.status == Elasticity_status::INVERTED_ELEMENT);
 }
 
-void solve(Elasticity& elasticity, const Options& o, const Controls& controls)
+void solve(Elasticity& elasticity, const Controls& controls)
 {
   const CGAL::Linear_elasticity_result_3 result = elasticity.solve(controls.displacements());
   if(!is_solution(elasticity, result))
-    refuse(result, o, controls);
+    refuse(result, controls);
 }

@@ -8,8 +8,7 @@
 #ifndef MIXED_MESH_3_APPS_BRAIN_SHIFT_SOLVE_H
 #define MIXED_MESH_3_APPS_BRAIN_SHIFT_SOLVE_H
 
-#include "brain_shift/options.h"
-#include "brain_shift/outcome.h"
+#include "brain_shift/locate.h"
 #include "core/types.h"
 
 #include <CGAL/Linear_elasticity_3.h>
@@ -17,31 +16,18 @@
 #include <CGAL/Mixed_mesh_petsc/Petsc_solver_traits.h>
 #endif
 
-#include <string>
-#include <vector>
-
 #if MIXED_MESH_3_HAS_PETSC
 using Elasticity = CGAL::Linear_elasticity_3<Mesh, CGAL::Mixed_meshes_3::Petsc_solver_traits>;
 #else
 using Elasticity = CGAL::Linear_elasticity_3<Mesh>;
 #endif
 
-/// Points with given displacements.
-struct Controls
-{
-  std::string file; // file that the points come from, for messages
-  std::vector<Control_point> points;
-  double compliance; // mm/mN
-
-  std::vector<Vector> displacements() const;
-};
-
 /// Throws the defect of a result, if there is one.
 /// \throw std::runtime_error a line naming the file and the defect
-void check(const CGAL::Linear_elasticity_result_3& result, const Options& options, const Controls& controls);
+void check(const CGAL::Linear_elasticity_result_3& result, const Controls& controls);
 
 /// Sets the control points. \throw std::runtime_error like `check()`
-void set_control_points(Elasticity& elasticity, const Options& options, const Controls& controls);
+void set_control_points(Elasticity& elasticity, const Controls& controls);
 
 /// Whether the result of `Elasticity::solve()` is a solution: with finite rotations, a solution may invert
 /// elements.
@@ -49,6 +35,6 @@ bool is_solution(const Elasticity& elasticity, const CGAL::Linear_elasticity_res
 
 /// Solves for the displacements of the control points that are set.
 /// \throw std::runtime_error like `check()`
-void solve(Elasticity& elasticity, const Options& options, const Controls& controls);
+void solve(Elasticity& elasticity, const Controls& controls);
 
 #endif // MIXED_MESH_3_APPS_BRAIN_SHIFT_SOLVE_H

@@ -33,8 +33,10 @@ std::string list(const std::vector<Subdomain_facts>& subdomains)
 
 } // namespace
 
-std::vector<Subdomain_facts> find_subdomains(const Mesh& mesh, const mm3::IO::Subdomain_names& names,
-                                             const Options& o)
+std::vector<Subdomain_facts> find_subdomains(const Mesh& mesh, const std::string& mesh_file,
+                                             const mm3::IO::Subdomain_names& names,
+                                             const mm3::Elastic_material& material,
+                                             const std::vector<Labeled_material>& materials)
 {
   std::map<mm3::Subdomain_index, Subdomain_facts> of_index;
   for(mm3::Element_index e = 0; e < mesh.number_of_elements(); ++e) {
@@ -47,30 +49,30 @@ std::vector<Subdomain_facts> find_subdomains(const Mesh& mesh, const mm3::IO::Su
     facts.index = index;
     if(const auto named = names.find(index); named != names.end())
       facts.name = named->second;
-    facts.material = o.material;
+    facts.material = material;
     subdomains.push_back(facts);
   }
   std::set<mm3::Subdomain_index> given;
-  for(const auto& [label, material] : o.materials) {
-    const mm3::Subdomain_index index = find_subdomain(subdomains, label, o).index;
+  for(const auto& [label, own] : materials) {
+    const mm3::Subdomain_index index = find_subdomain(subdomains, label, mesh_file).index;
     if(!given.insert(index).second)
       throw std::runtime_error("--material: the subdomain " + control_points::quoted(label)
                                + " is given two materials");
     const auto has_index = [index](const Subdomain_facts& facts) { return facts.index == index; };
-    std::find_if(subdomains.begin(), subdomains.end(), has_index)->material = material;
+    std::find_if(subdomains.begin(), subdomains.end(), has_index)->material = own;
   }
   return subdomains;
 }
 
 const Subdomain_facts& find_subdomain(const std::vector<Subdomain_facts>& subdomains,
-                                      const std::string& label, const Options& o)
+                                      const std::string& label, const std::string& mesh_file)
 {
   const auto has_label = [&label](const Subdomain_facts& s) { // no name begins with a digit
     return std::to_string(s.index) == label || (!s.name.empty() && s.name == label);
   };
   const auto place = std::find_if(subdomains.begin(), subdomains.end(), has_label);
   if(place == subdomains.end())
-    throw std::runtime_error(o.mesh + ": has no subdomain " + control_points::quoted(label) + ", but "
+    throw std::runtime_error(mesh_file + ": has no subdomain " + control_points::quoted(label) + ", but "
                              + list(subdomains));
   return *place;
 }

@@ -8,25 +8,34 @@
 #ifndef MIXED_MESH_3_APPS_BRAIN_SHIFT_SUBDOMAINS_H
 #define MIXED_MESH_3_APPS_BRAIN_SHIFT_SUBDOMAINS_H
 
-#include "brain_shift/options.h"
 #include "brain_shift/outcome.h"
 #include "core/types.h"
 
+#include <CGAL/Mixed_mesh_3/Elastic_material.h>
 #include <CGAL/Mixed_mesh_3/IO/Subdomain_names.h>
 
 #include <string>
 #include <vector>
 
+/// A material, and the label of its subdomain as given on the command line.
+struct Labeled_material
+{
+  std::string label;
+  CGAL::Mixed_meshes_3::Elastic_material material;
+};
+
 /// The subdomains of the mesh with their materials, in the order of their indices.
+/// \param material material of subdomains without one of their own
 /// \throw std::runtime_error if the mesh lacks a label of --material, or if a label has two materials
-std::vector<Subdomain_facts> find_subdomains(const Mesh& mesh,
+std::vector<Subdomain_facts> find_subdomains(const Mesh& mesh, const std::string& mesh_file,
                                              const CGAL::Mixed_meshes_3::IO::Subdomain_names& names,
-                                             const Options& options);
+                                             const CGAL::Mixed_meshes_3::Elastic_material& material,
+                                             const std::vector<Labeled_material>& materials);
 
 /// The subdomain with a label of the command line.
 /// \throw std::runtime_error if there is no such subdomain
 const Subdomain_facts& find_subdomain(const std::vector<Subdomain_facts>& subdomains,
-                                      const std::string& label, const Options& options);
+                                      const std::string& label, const std::string& mesh_file);
 
 /// The material of each element.
 std::vector<CGAL::Mixed_meshes_3::Elastic_material>

@@ -13,12 +13,12 @@
 
 namespace mm3 = CGAL::Mixed_meshes_3;
 
-Supports find_supports(const Mesh& mesh, const Boundary_patches& patches, const Options& o,
+Supports find_supports(const Mesh& mesh, const Boundary_patches& patches, const Support_options& o,
                        const std::vector<Control_point>& points)
 {
   const std::vector<mm3::Vertex_index> boundary = mm3::boundary_vertices(mesh);
   const auto position = [&mesh](mm3::Vertex_index v) { return mm3::to_vec3(mesh.point(v)); };
-  const auto height = [&](mm3::Vertex_index v) { return dot(position(v), Vector(o.up_direction)); };
+  const auto height = [&](mm3::Vertex_index v) { return dot(position(v), Vector(o.up)); };
   double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
   for(mm3::Vertex_index v : boundary) {
     lowest = (std::min)(lowest, height(v));

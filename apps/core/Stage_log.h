@@ -165,7 +165,11 @@ public:
   void tell(const std::string& what) { m_progress.show(m_current + ", " + what); }
 
   /// Writes a line that stays.
-  void note(const std::string& line) { m_progress.note("note: " + line); }
+  void note(const std::string& line)
+  {
+    if(m_show_progress)
+      m_progress.note("note: " + line);
+  }
 
   /// Replaces the progress line by the costs of the stages.
   void finish_progress()
