@@ -98,7 +98,7 @@ class Surface_relaxation
 
   static constexpr std::size_t large_mesh = 3000; // vertices
   static constexpr int layers_of_large_mesh = 4;
-  static constexpr int maximal_number_of_halvings = 4; // halvings of one step
+  static constexpr int maximal_number_of_halvings = 4; // of one step: to 1/16 of the longest one
 
   const Element_list& m_elements;
   const Surface_targets& m_targets;

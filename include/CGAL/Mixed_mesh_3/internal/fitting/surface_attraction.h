@@ -91,6 +91,7 @@ class Surface_attraction
   std::vector<Vec3> m_found;              // points of the surface, the closest ones when they were asked for
 
   // Rounding of barycentric coordinates: a place on an edge does not draw the vertex opposite to the edge.
+  // It is 10^7 roundings of 2^-53.
   static constexpr double nearly_0 = 1e-9;
   static constexpr double not_measured = -std::numeric_limits<double>::infinity(); // slack of a new sample
   static constexpr std::size_t no_triangle = std::size_t(-1);
