@@ -116,7 +116,7 @@ public:
   /// edge.
   bool is_near(const Vec3& a, double length_at_a, const Vec3& b, double length_at_b) const
   {
-    constexpr int samples = 8;
+    constexpr int samples = 8;           // seven places, one of which is the middle, where an arc is farthest
     constexpr double near_enough = 0.04; // 20 edges for a circle
     const Vec3 along = b - a;
     const double square = dot(along, along);

@@ -166,7 +166,7 @@ public:
   }
 
 private:
-  static constexpr int width = 4; // children of a node, and most triangles of a leaf
+  static constexpr int width = 4; // children of a node, which is halved twice, and most triangles of a leaf
 
   struct Box
   {
