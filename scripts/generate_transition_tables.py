@@ -569,6 +569,7 @@ namespace internal {
 // %(free)d classes do without the center (worst ARC %(arc_free).3f),
 // %(centered)d have it (worst ARC %(arc_centered).3f).
 
+// Orbits of the 2^12 patterns under the 48 symmetries of the cube.
 inline constexpr int number_of_transition_classes = %(classes)d;
 
 inline constexpr unsigned short transition_table[] = {

@@ -32,7 +32,7 @@ namespace internal {
 
 class Bounded_moves
 {
-  static constexpr int largest_number_of_halvings = 8; // of a move; then it is none
+  static constexpr int largest_number_of_halvings = 8; // of a move: less than 1/256 of it is none
 
   const Element_list& m_elements;
   std::vector<double> m_bounds; // of the aspect-ratio coefficient of each element

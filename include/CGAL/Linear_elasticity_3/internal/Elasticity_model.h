@@ -47,7 +47,8 @@ class Elasticity_model
   using Status = Linear_elasticity_status;
 
   static constexpr int largest_number_of_rounds = 60; // of contacts; five to ten are usual
-  // Relative to the largest force; that of a contact may be far smaller.
+  // Relative to the largest force; that of a contact may be far smaller. 1e-9 is 10^7 roundings of 2^-53; the
+  // iteration of corotational solutions ends at a tenth of 1e-6.
   static constexpr double contact_tolerance = 1e-9, corotational_contact_tolerance = 1e-6;
 
   std::unique_ptr<Elastic_body> m_body;

@@ -40,6 +40,8 @@ struct Polar_rotation
   /// SIAM J. Sci. Stat. Comput. 7, 1986), and inverted or nearly flat gradients by singular values.
   explicit Polar_rotation(const Eigen::Matrix3d& f)
   {
+    // A gradient is flat if it shortens one direction to less than 0.3 %: 0.003 / 2^(3/2) is 1e-3. The change
+    // is squared; after a change c, c^2 / 2 is left, 5e-16, a few roundings.
     constexpr double flat = 1e-3, converged = 1e-15;
     constexpr int largest_number_of_iterations = 20; // five to seven are usual
     const double size = f.norm();

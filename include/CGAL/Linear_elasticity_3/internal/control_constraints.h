@@ -59,7 +59,8 @@ class Control_constraints
   using Index = Eigen::Index;
 
   // Relative bounds. A constraint with a pivot below `dependence` depends on others and is left out; it must
-  // be satisfied by itself within `miss` of the largest displacement.
+  // be satisfied by itself within `miss` of the largest displacement. A factor of 1,000 rows has errors of
+  // 1,000 roundings of 2^-53, a thousandth of `dependence`; `miss` is 10 nm of a displacement of 10 mm.
   static constexpr double dependence = 1e-10, miss = 1e-6;
   static constexpr Index columns_at_once = 24; // eight points: bounds the memory
 

@@ -59,7 +59,7 @@ class Corotational_solution
   // to 80 in a bar bent by 90 degrees.
   static constexpr int largest_number_of_steps = 15, largest_number_of_descents = 40,
                        largest_number_of_iterations = 1000;
-  static constexpr double smallest_part = 1. / 64; // share of the loads
+  static constexpr double smallest_part = 1. / 64; // share of the loads: six halvings
   // Limit of the iterations of all steps together, times the number of vertices: with 20,000, the limit is
   // reached after a minute or two. Bars bent by 90 degrees take half of the limit.
   static constexpr double largest_work = 2e7;
@@ -284,6 +284,8 @@ private:
   // Moves along a step, as far as the potential falls enough.
   bool descend(const Vector& force, const Vector& points, const Vector& d, double slope, Vector& u)
   {
+    // Armijo's condition with its usual constant (Nocedal, Wright: Numerical Optimization, 2006), and up to
+    // 13 halvings.
     constexpr double sufficient_decrease = 1e-4, shortest = 1e-4;
     const double before = potential(force, points, u);
     const double error = 1e-13 * (m_elements.energy() + std::abs(force.dot(u))); // rounding error

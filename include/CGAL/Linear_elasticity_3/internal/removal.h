@@ -48,12 +48,14 @@ class Removal
   using Vector = Eigen::VectorXd;
 
   // Limits beyond which the system is factored instead, which takes as long as some hundreds of iterations.
-  // Ten to fifteen iterations are usual; if the residual rises so often in a row, it may consist of rounding
+  // Usual are ten to fifteen iterations; if the residual rises as often in a row, it may consist of rounding
   // errors only.
   static constexpr int largest_number_of_iterations = 100, largest_number_of_rises = 20;
-  // The reduction of the error by a cycle, squared: beyond, rounding to single precision may dominate.
+  // The reduction of the error by a cycle, squared: beyond 1e-4, rounding to single precision, which is 6e-8
+  // of each number, may dominate.
   static constexpr double reduction = 1e-8;
-  // The part of the tolerance, squared, that a cycle aims at, so that rounding rarely causes another one.
+  // The part of the tolerance, squared, that a cycle aims at, so that rounding rarely causes another one:
+  // 0.9 squared.
   static constexpr double margin = 0.81;
 
   Elastic_body& m_body;

@@ -126,7 +126,7 @@ inline std::vector<Rigid_mode> free_rigid_modes(const std::vector<Vertex_index>&
                                                 const std::vector<Vec3>& points,
                                                 const std::vector<Support>& supports)
 {
-  constexpr double tolerance = 1e-11; // tolerance of the kernel, relative to the trace
+  constexpr double tolerance = 1e-11; // of the kernel, relative to the trace: 3e-6 of the size, squared
   Vec3 center{};
   for(Vertex_index v : vertices)
     center = center + (1 / double(vertices.size())) * points[v];

@@ -79,7 +79,7 @@ public:
   /// The minimum of the quadric; near a given point in directions in which the quadric hardly changes.
   Vec3 minimum_near(const Vec3& p) const
   {
-    constexpr double share = 1e-3; // share of the area for that point: keeps the system well-conditioned
+    constexpr double share = 1e-3; // share of the area for that point: the condition is 1,001 at most
     const double pull = share * m_area;
     if(!(pull > 0))
       return p;

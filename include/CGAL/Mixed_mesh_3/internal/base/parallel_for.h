@@ -31,7 +31,7 @@ void parallel_for(std::size_t n, [[maybe_unused]] unsigned threads, const F& f,
 {
 #ifdef CGAL_LINKED_WITH_TBB
   if(threads > 1 && n >= 2 * worth_a_thread) {
-    constexpr std::size_t blocks_per_thread = 8; // so that no thread waits long for the last block
+    constexpr std::size_t blocks_per_thread = 8; // so a wait for the last block is 1/8 of that work
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, worth_a_thread / blocks_per_thread + 1),
                       [&](const auto& range) {
                         for(std::size_t i = range.begin(); i < range.end(); ++i)

@@ -57,7 +57,8 @@ inline double depth(Element_kind kind, const Vec3& r)
   return least;
 }
 
-/// Bound of the error of reference coordinates of points found by iteration, and of points on faces.
+/// Bound of the error of reference coordinates of points found by iteration, and of points on faces:
+/// 10^7 roundings of 2^-53, as coordinates may be a million times as large as the edges of an element.
 inline constexpr double reference_tolerance = 1e-9;
 
 /*!

@@ -41,6 +41,7 @@ struct Length
 // The square of the ARC of a tetrahedron with that sum of the squared edges, and six times the volume.
 inline double squared_tetrahedron_arc(double squared_edges, double six_volumes)
 {
+  // 36: six volumes, squared.
   constexpr double factor = 36 / (tetrahedron_arc_factor * tetrahedron_arc_factor);
   const double l2 = squared_edges / 6;
   return factor * l2 * l2 * l2 / (six_volumes * six_volumes);

@@ -36,7 +36,7 @@ inline Differentiated operator*(const Differentiated& f, const Differentiated& g
 
 inline Differentiated operator*(double c, const Differentiated& f) { return {c * f.value, c * f.gradient}; }
 
-/// The largest number of edges of an element.
+/// The largest number of edges of an element: of a hexahedron, four in each direction.
 inline constexpr int largest_number_of_edges = 12;
 
 /*!

@@ -87,7 +87,7 @@ inline double scaled_jacobian(Element_kind kind, const Element_points& p)
   return 0;
 }
 
-constexpr double degrees_per_radian = 180 / CGAL_PI;
+constexpr double degrees_per_radian = 180 / CGAL_PI; // half a turn is 180 degrees
 
 /// Twice the vector area: normal to a triangle, the mean normal of a quadrilateral; outwards.
 inline Vec3 face_normal(const Element_face& face, const Element_points& p)

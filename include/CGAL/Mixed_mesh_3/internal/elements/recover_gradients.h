@@ -79,7 +79,7 @@ QR decomposition by Householder's reflections, of columns of length 1.
 */
 class Quadratic_fit
 {
-  static constexpr std::size_t n = 9;
+  static constexpr std::size_t n = 9; // x, y, z, three squares and three products
   using Row = std::array<double, n>;
 
   std::vector<Row> m_rows;

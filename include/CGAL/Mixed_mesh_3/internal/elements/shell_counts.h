@@ -28,7 +28,7 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /// The share of the volume of a solid below which a part is a speck: whether a mesh has the part does not
-/// matter.
+/// matter. It is a hundredth in each direction: 0.01^3.
 constexpr double volume_share_of_speck = 1e-6;
 
 /// The shells of a closed surface: for each vertex, the number of its shell.

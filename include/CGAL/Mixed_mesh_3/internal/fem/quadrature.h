@@ -29,7 +29,8 @@ namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
 
-/// The largest number of shape functions: of the vertices and edges of a hexahedron.
+/// The largest number of shape functions: of the 8 vertices and 12 edges of a hexahedron; of points: of a
+/// pyramid of order 2.
 inline constexpr int largest_number_of_functions = 20;
 inline constexpr int largest_number_of_points = 16;
 

@@ -40,8 +40,10 @@ class Surface_projection
   // several subdomains only.
   mutable std::map<std::pair<Subdomain_index, Subdomain_index>, Vec3> m_last;
 
-  static constexpr double accuracy = 1e-9;      // in diagonals of the domain
-  static constexpr double least_progress = 0.7; // the search ends soon where surfaces do not meet
+  static constexpr double accuracy = 1e-9; // in diagonals: of a head of 200 mm, 0.2 nm
+  // The search ends soon where surfaces do not meet: there, a cycle leaves all of the distance; where they
+  // meet nearly none, and at angles of less than 13 degrees, without extrapolation, 0.95 of it.
+  static constexpr double least_progress = 0.7;
 
   static Point_3 point(const Vec3& p) { return Point_3(p[0], p[1], p[2]); }
 

@@ -81,7 +81,10 @@ class Vertex_optimizer
   double m_first_step = 0.1, m_growth = 1.5;
 
   static constexpr double infinity = std::numeric_limits<double>::infinity();
-  // Steps grow when they succeed, and shrink when they fail.
+  // Steps grow when they succeed, and shrink when they fail, up to five times: 0.4^5 is just above 0.01. Of
+  // nine meshes of 2,000 vertices, a slot keeps less of its sharp edges, 0.982 and 0.970 instead of 0.984,
+  // with half or twice as much shrinkage, and 0.962 with twice the smallest step; with half of that step, the
+  // worst aspect-ratio coefficients of two are 2.9 and 3.2 instead of 2.55. Distances vary either way.
   static constexpr double shrinkage = 0.4, smallest_step = 0.01;
   static constexpr std::size_t moves_worth_a_thread = 64;
   // Levels are smaller than colors: a brain of 10,000 vertices has 270, of 37 vertices on average.

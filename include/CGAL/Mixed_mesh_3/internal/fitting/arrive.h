@@ -74,7 +74,10 @@ bool arrive(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
   // Flips in earlier rounds keep less.
   constexpr int rounds_until_flips = 8, rounds_to_flip = 4;
   constexpr double power_of_flips = 4, least_cost_to_flip = 1.2;
-  // Where the rest is left, rounds without an arrival until elements are flipped, once, and until the end.
+  // Where the rest is left, rounds without an arrival until elements are flipped, once, and until the end. Of
+  // seven meshes of 2,000 vertices, with 1 and 6 rounds a part keeps 0.992 and 0.994 of its sharp edges
+  // instead of 0.998, a slot 0.978 and 0.988 instead of 0.984, and with 6 the largest distance of a torus is
+  // 1.9 times. With a cost of 1 and 4, the part keeps 0.996, the slot 0.965 and 0.959.
   constexpr int rounds_until_in_vain = 3;
   constexpr double least_cost_to_flip_in_vain = 2;
 

@@ -142,7 +142,7 @@ void bisect_subdomains(Fitting_state<Quality>& s, std::size_t most)
 template <class Quality>
 void bisect_sharp_edges(Fitting_state<Quality>& s, std::size_t number)
 {
-  constexpr double near_enough = 0.04;
+  constexpr double near_enough = 0.04; // 20 edges for a circle
   bisect_edges(s, number, [&](Vertex_index a, Vertex_index b, const Edge_apexes&, Stratum) {
     if(!s.mesh.is_sharp(a, b))
       return 0.;

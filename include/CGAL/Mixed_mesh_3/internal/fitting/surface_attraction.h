@@ -91,14 +91,22 @@ class Surface_attraction
   std::vector<Vec3> m_found;              // points of the surface, the closest ones when they were asked for
 
   // Rounding of barycentric coordinates: a place on an edge does not draw the vertex opposite to the edge.
+  // It is 10^7 roundings of 2^-53.
   static constexpr double nearly_0 = 1e-9;
   static constexpr double not_measured = -std::numeric_limits<double>::infinity(); // slack of a new sample
   static constexpr std::size_t no_triangle = std::size_t(-1);
-  // Share of the tolerance below which samples draw nothing.
+  // Share of the tolerance below which samples draw nothing. With half of it, the largest distance of a brain
+  // of 2,000 vertices is smaller by a quarter, those of a gear and a torus are larger by a tenth; with twice
+  // as much, that of the brain is larger by a fifth, and these by a tenth.
   static constexpr double tolerated_share = 0.35;
   // Number of successive samples for one thread, each of which is a hint for the next one.
   static constexpr std::size_t samples_in_turn = 1024;
-  // Weights in the unit of costs to the fourth power, at a shift as long as the edges around the vertex.
+  // Weights in the unit of costs to the fourth power, at a shift as long as the edges around the vertex. With
+  // half of the first weight, three of seven largest distances are larger by 15 to 23 % and one is smaller by
+  // 16 %; with twice as much, two are larger, by 14 and 61 %, and two smaller, by 5 and 10 %. Weights of
+  // places that stay far grow by half at a time, to three hundred times theirs; if they grow to 3 times
+  // theirs at a time, distances of an elephant and a torus are larger by 9 and 22 %, that of a brain with a
+  // region smaller by 28 %.
   static constexpr double weight = 100, stiffening = 1.5, stiffest = 300;
 
 public:

@@ -31,7 +31,7 @@ namespace internal {
 /// \param radius r; if it is 0, or no element is in the region, all have the weight 1
 inline std::vector<double> weights_of_vertices(const Working_mesh& mesh, double radius)
 {
-  constexpr double infinity = std::numeric_limits<double>::infinity(), exponent = 3.6;
+  constexpr double infinity = std::numeric_limits<double>::infinity(), exponent = 3.6; // 6 * 3/5, see above
   std::vector<double> distances(mesh.points.size(), infinity);
   std::priority_queue<std::pair<double, Vertex_index>> queue; // of negative distances
   const auto reach = [&](Vertex_index v, double distance) {

@@ -53,7 +53,8 @@ class Tolerance_search
                           largest_share_of_subdomains = 0.75;
   static constexpr double multiples[] = {1, 1.3, 2, 3}, multiples_of_wish[] = {1.9, 2.4, 3.2};
   // Between subdomains, the sliding of boundary vertices, which is not estimated, reaches nearer places: the
-  // first multiple that is tried, and the number of trials of the search for another one.
+  // first multiple that is tried, and the number of trials of the search for another one: five
+  // trials narrow a range of 1 to 10 to a factor of 1.07, the 32nd root of 10.
   static constexpr double multiple_between_subdomains = 2.5;
   static constexpr int number_of_trials = 5;
 

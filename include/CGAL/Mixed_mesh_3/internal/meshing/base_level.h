@@ -38,6 +38,7 @@ inline int first_base_level(const Mixed_mesh_criteria_3& criteria)
 /// \return whether the cells were refined
 inline bool refine_to_level(Located_octree& octree, int base_level, std::size_t budget)
 {
+  // So many vertices take 21 s (benchmark/results/threads.md).
   constexpr std::size_t far_above_budget = 1000000;
   for(int level = 0; level < base_level; ++level) {
     // Cells inside have their smallest corners inside, and eight children each: a lower bound of the number

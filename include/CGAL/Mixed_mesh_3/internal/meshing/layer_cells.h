@@ -44,7 +44,8 @@ class Layer_finder
   const Located_octree& m_octree;
   std::unordered_map<std::uint64_t, bool> m_is_thin_at; // corners of leaves are mostly common to four leaves
 
-  // Points of a line, in edges. The first one is in the subdomain behind the surface, unless that is thinner.
+  // Points of a line, in edges: 1/8 apart, up to 1/2. The first one is in the subdomain
+  // behind the surface, unless that is thinner than 1/20.
   static constexpr double first_share = 0.05, more_shares[] = {0.125, 0.25, 0.375, 0.5};
 
 public:

@@ -33,6 +33,7 @@ struct Flip_context
 {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   // Least relative gain: flips that gain less are not worth the time, and might go round in circles.
+  // It is 1e10 roundings of 2^-53, and costs are sums of fewer terms.
   static constexpr double least_gain = 1e-6;
 
   Working_mesh& mesh;

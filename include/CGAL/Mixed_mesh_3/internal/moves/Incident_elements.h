@@ -47,7 +47,7 @@ class Incident_elements
   std::vector<Element_index> m_elements;
   std::map<std::uint32_t, std::vector<std::size_t>> m_free; // places of free rooms, by their capacity
 
-  static constexpr std::uint32_t granularity = 4; // of the capacity
+  static constexpr std::uint32_t granularity = 4; // of the capacity: 1.5 places are left over on average
   static constexpr std::uint32_t rounded_up(std::uint32_t n)
   {
     return (n + granularity - 1) / granularity * granularity;

@@ -100,7 +100,7 @@ struct Working_mesh
   Working_mesh(const Mesh& mesh, std::vector<Stratum> strata_of_vertices, std::size_t more = 0)
     : strata(std::move(strata_of_vertices))
   {
-    constexpr std::size_t elements_of_vertex = 12; // bisected, and flipped later
+    constexpr std::size_t elements_of_vertex = 12; // twice the six tetrahedra that vertices of meshes add
     points.reserve(mesh.number_of_vertices() + more);
     for(const auto& p : mesh.points())
       points.push_back(to_vec3(p));

@@ -91,6 +91,9 @@ bool remove_from_boundary(Flip_context<Quality>& context, Element_index e, Verte
 template <class Quality>
 bool remove_from_boundary(Flip_context<Quality>& context, Element_index e)
 {
+  // Of six meshes of 2,000 vertices, with half of it the largest distances of four are larger by 10 to 22 %,
+  // and the worst aspect-ratio coefficient of an elephant is 3.1 instead of 2.55; with twice as much, two are
+  // larger by 27 and 38 %, and the worst coefficient of a part is 3.2 instead of 2.4.
   constexpr double least_cost = 3;
   constexpr int edges[6][4] = {{0, 1, 2, 3}, {0, 2, 1, 3}, {0, 3, 1, 2},
                                {1, 2, 0, 3}, {1, 3, 0, 2}, {2, 3, 0, 1}};

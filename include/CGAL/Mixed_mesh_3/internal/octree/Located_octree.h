@@ -322,6 +322,8 @@ private:
 /// \param root the octree with nothing but its root
 inline double volume_of_domain(const Located_octree& root)
 {
+  // With half and twice as many, three and two of seven meshes of 2,000 vertices differ, their largest
+  // distances by 11 % at most.
   constexpr std::size_t sufficient_number = 500;
   Located_octree octree = root;
   for(int level = 0;; ++level) {

@@ -37,6 +37,7 @@ namespace internal {
 /// \param root the octree with nothing but its root
 inline double mean_radius_of_region(const Located_octree& root)
 {
+  // An error of a tenth in the count of 100 cells is one of 3 % in the radius.
   constexpr std::size_t sufficient_number = 100, largest_number = 20000;
   const auto radius_of = [](double number, double edge) { return std::cbrt(0.75 / M_PI * number) * edge; };
   double radius = 0;

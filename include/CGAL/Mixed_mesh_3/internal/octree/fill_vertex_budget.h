@@ -33,7 +33,8 @@ class Budget_search
   // more than it gains. Below 99 % single cells are tried.
   static constexpr double share_that_is_full = 0.998, share_for_single_cells = 0.99;
   // Number of vertices between a full budget and the whole one from which on the search aims at their middle:
-  // trials of the whole budget miss it by a few vertices, on either side.
+  // trials of the whole budget miss it by a few vertices, on either side. It is the range of a budget of
+  // 50,000.
   static constexpr double wide_range = 100;
   static constexpr std::size_t number_of_single_cells = 24;
 

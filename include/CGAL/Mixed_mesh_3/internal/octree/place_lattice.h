@@ -37,7 +37,8 @@ namespace internal {
 /// planes gets layers of one width.
 class Lattice_placement
 {
-  // Edges whose ratios differ by less are taken as equal: ratios have rounding errors.
+  // Edges whose ratios differ by less are taken as equal: ratios have rounding errors, of 2^-53 times the
+  // ratio of coordinates to edges, which may be a million.
   static constexpr double accuracy = 1e-9;
   // Share of the largest number of vertices within the budget from which uniform cells are candidates: the
   // candidate nearest to a cube is taken.
@@ -137,7 +138,7 @@ constexpr double largest_ratio_of_split_cells = 1.25;
 /// is thick, and tetrahedra within the usual bounds of quality hardly fit into it.
 constexpr double least_edge_of_thin_walls = 1.5;
 
-/// The largest number of boxes between planes that are looked at.
+/// The largest number of boxes between planes that are looked at: 64 layers along each axis.
 constexpr std::size_t most_boxes_between_planes = 1 << 18;
 
 /// Cells whose planes lie on the surface if possible, else cells around the domain as the criteria say.

@@ -122,6 +122,7 @@ public:
   /// Middles of the chords that start on a shell, spread evenly over the shell, at right angles inwards.
   std::vector<Sample> samples(std::size_t region) const
   {
+    // Of independent samples, a share of one half has a standard error of 1.1 % for 2,000, and 14 % for 12.
     constexpr double number_for_all_shells = 2000;
     constexpr double least_number_of_samples = 12;
     const Shell& shell = m_shells[region];

@@ -35,8 +35,8 @@ namespace internal {
 class Feature_polyline
 {
   std::vector<Vec3> m_points;
-  std::vector<double> m_lengths; // arc lengths from the first point
-  static constexpr std::size_t group = 16;
+  std::vector<double> m_lengths;                // arc lengths from the first point
+  static constexpr std::size_t group = 16;      // the fewest balls and segments, together, of a chain of 256
   std::vector<std::pair<Vec3, double>> m_balls; // balls around groups of segments: center, radius
 
 public:
@@ -116,7 +116,7 @@ public:
   /// edge.
   bool is_near(const Vec3& a, double length_at_a, const Vec3& b, double length_at_b) const
   {
-    constexpr int samples = 8;
+    constexpr int samples = 8;           // seven places, one of which is the middle, where an arc is farthest
     constexpr double near_enough = 0.04; // 20 edges for a circle
     const Vec3 along = b - a;
     const double square = dot(along, along);
@@ -157,7 +157,7 @@ class Sharp_features
 public:
   using Subdomains = std::vector<Subdomain_index>; // ascending
 
-  static constexpr double sharp_turn = 45; // degrees
+  static constexpr double sharp_turn = 45; // degrees: half a right angle
   // Least length of connected polylines altogether, in sizes of elements.
   static constexpr double least_length = 2;
   // Least total length in diagonals of the surface; a brain has 0.3, a cube 7, machine parts 9 to 12.

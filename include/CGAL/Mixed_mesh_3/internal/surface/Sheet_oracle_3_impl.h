@@ -133,7 +133,8 @@ CGAL_MIXED_MESH_3_INLINE Sheet_location Sheet_oracle_3::locate(const Point_3& p)
 {
   const auto [q, triangle] = m_trees->closest->closest(to_vec3(p));
   const Triangle& t = m_triangles[triangle];
-  // The corners between which the point is on the edge, or the corner at which it is.
+  // The corners between which the point is on the edge, or the corner at which it is: areas have
+  // 10^7 roundings of 2^-53, as coordinates may be a million times as large as a triangle.
   constexpr double nearly_0 = 1e-9;
   const Vec3 area = cross(t.points[1] - t.points[0], t.points[2] - t.points[0]);
   std::array<bool, 3> is_far{}; // far from the edge opposite to a corner

@@ -120,7 +120,7 @@ CGAL_MIXED_MESH_3_INLINE void Surface_oracle_3::build(Triangle_soup soup)
 CGAL_MIXED_MESH_3_INLINE void
 Surface_oracle_3::count_shells(const std::vector<std::array<std::size_t, 3>>& triangles)
 {
-  constexpr double near = 1e-6; // distance in sides of a triangle
+  constexpr double near = 1e-6; // in sides of a triangle, which may be 1e-10 of coordinates: 2^-53 / near
   const Shells_of_vertices shells = find_shells(triangles, m_points.size());
   m_shells = shells.counts;
   m_shells.number_of_cavities = 0;

@@ -117,6 +117,8 @@ public:
     if(number > 0)
       add_node(corners, box.high - box.low, centers, 0, number);
     m_nodes.shrink_to_fit();
+    // 16 times 2^-53: more than the eleven roundings of the squared distance of a box, two in each of three
+    // differences, three squares and two sums.
     constexpr double roundings = 8 * std::numeric_limits<double>::epsilon();
     for(std::size_t k = 0; k < 3; ++k)
       m_rounding = (std::max)(
@@ -164,7 +166,7 @@ public:
   }
 
 private:
-  static constexpr int width = 4; // children of a node, and most triangles of a leaf
+  static constexpr int width = 4; // children of a node, which is halved twice, and most triangles of a leaf
 
   struct Box
   {

@@ -129,6 +129,7 @@ private:
 
   void add_new_pairs(unsigned threads)
   {
+    // At the end, a thread waits for a slab at most, a quarter of its share.
     constexpr std::size_t boxes_worth_a_slab = 1000, slabs_per_thread = 4;
     std::vector<Box> boxes;
     boxes.reserve(m_triangles.size());

@@ -92,7 +92,8 @@ public:
   }
 
 private:
-  // Cuts nearer to an end, in lengths of the edge, are at the end: crossings are computed in doubles.
+  // Cuts nearer to an end, in lengths of the edge, are at the end: crossings are computed in doubles,
+  // whose rounding of 2^-53 counts a million times where edges are a millionth of the coordinates.
   static constexpr double at_end = 1e-9;
 
   static Vec3 place(const Vec3& p, const Vec3& q, double share)

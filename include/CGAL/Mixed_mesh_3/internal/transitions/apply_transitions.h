@@ -47,7 +47,7 @@ class Apply_transitions
   Lattice_mesh m_mesh;
 
   static constexpr std::uint32_t no_slot = std::uint32_t(-1);
-  static constexpr int cell_center = 13;
+  static constexpr int cell_center = 13; // the point (1, 1, 1): 1 + 3 + 9
 
   bool is_used(Node_index n) const { return m_slots[n] != no_slot; }
 

@@ -64,7 +64,7 @@ struct Face_split
   const Face_piece* end() const { return pieces + size; }
 };
 
-inline constexpr int cell_center_index = 13;
+inline constexpr int cell_center_index = 13; // the point (1, 1, 1): 1 + 3 + 9
 
 // The midpoint of an edge as a lattice index.
 inline int edge_midpoint(int edge)
@@ -157,7 +157,7 @@ private:
 class Transition_templates
 {
 public:
-  static constexpr int number_of_patterns = 4096;
+  static constexpr int number_of_patterns = 4096; // 2^12: each edge has a hanging vertex or not
 
   static const Transition_templates& get()
   {
