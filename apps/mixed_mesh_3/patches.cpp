@@ -26,10 +26,11 @@ namespace mm3 = CGAL::Mixed_meshes_3;
 namespace {
 
 // Names of sets in the files, other than those of patches.
-std::vector<std::string> names_in_files(const Options& o, const std::vector<Subdomain>& subdomains)
+std::vector<std::string> names_in_files(const std::vector<Subdomain_option>& sheets,
+                                        const std::vector<Subdomain>& subdomains)
 {
   std::vector<std::string> names;
-  for(const Subdomain_option& sheet : o.sheets)
+  for(const Subdomain_option& sheet : sheets)
     for(const char* side : {"", "_front", "_behind"})
       names.push_back(sheet.name + side);
   for(std::size_t i = 0; subdomains.size() > 1 && i < subdomains.size(); ++i) {
@@ -43,22 +44,23 @@ std::vector<std::string> names_in_files(const Options& o, const std::vector<Subd
 
 // Checks that no face is certain to be in two sets, where a file has one set for each face. Other patches may
 // have faces in common as well, which the writer finds.
-void check_overlaps(const Options& o, const std::vector<Subdomain>& subdomains)
+void check_overlaps(const std::vector<Patch_option>& patches, const std::vector<std::string>& outputs,
+                    bool msh2, const std::vector<Subdomain>& subdomains)
 {
-  const auto is_exclusive = [&o](const std::string& path) {
+  const auto is_exclusive = [msh2](const std::string& path) {
     const auto format = mm3::IO::format_of(path);
     return format
            && !mm3::IO::has_overlapping_facet_sets(
-             o.msh2 && *format == mm3::IO::Format::MSH_4_1 ? mm3::IO::Format::MSH_2_2 : *format);
+             msh2 && *format == mm3::IO::Format::MSH_4_1 ? mm3::IO::Format::MSH_2_2 : *format);
   };
-  const auto file = std::find_if(o.outputs.begin(), o.outputs.end(), is_exclusive);
-  if(file == o.outputs.end() || o.patches.empty())
+  const auto file = std::find_if(outputs.begin(), outputs.end(), is_exclusive);
+  if(file == outputs.end() || patches.empty())
     return;
   const std::string reason = *file + ": two facet sets share a face, which this format cannot hold: ";
   if(subdomains.size() > 1)
-    throw std::runtime_error(reason + o.patches.front().text() + ", and that of a subdomain");
-  for(auto p = o.patches.begin(); p != o.patches.end(); ++p)
-    for(auto other = o.patches.begin(); other != p; ++other)
+    throw std::runtime_error(reason + patches.front().text() + ", and that of a subdomain");
+  for(auto p = patches.begin(); p != patches.end(); ++p)
+    for(auto other = patches.begin(); other != p; ++other)
       if(other->place == p->place)
         throw std::runtime_error(reason + other->text() + ", and " + p->text());
 }
@@ -68,8 +70,8 @@ void check_overlaps(const Options& o, const std::vector<Subdomain>& subdomains)
 std::vector<Patch> read_patches(const Options& o, const std::vector<Subdomain>& subdomains,
                                 std::vector<std::string>& warnings)
 {
-  check_overlaps(o, subdomains);
-  const std::vector<std::string> names = names_in_files(o, subdomains);
+  check_overlaps(o.patches, o.outputs, o.msh2, subdomains);
+  const std::vector<std::string> names = names_in_files(o.sheets, subdomains);
   std::vector<Patch> patches;
   for(const Patch_option& p : o.patches) {
     if(std::any_of(names.begin(), names.end(),

@@ -71,7 +71,8 @@ void slit_along(std::vector<mm3::IO::Facet_set>& sets, Mesh& mesh, Outcome& outc
 
 } // namespace
 
-std::vector<Sheet> add_sheets(const Options& options, Domain& domain, std::vector<std::string>& warnings)
+std::vector<Sheet> add_sheets(const Input_options& options, Domain& domain,
+                              std::vector<std::string>& warnings)
 {
   std::vector<Sheet> sheets;
   for(const Subdomain_option& s : options.sheets) {

@@ -29,7 +29,8 @@ struct Sheet
 };
 
 /// Reads the sheets of the options, and adds the sheets to the domain.
-std::vector<Sheet> add_sheets(const Options& options, CGAL::Labeled_polyhedral_mixed_mesh_domain_3& domain,
+std::vector<Sheet> add_sheets(const Input_options& options,
+                              CGAL::Labeled_polyhedral_mixed_mesh_domain_3& domain,
                               std::vector<std::string>& warnings);
 
 /// Examines faces, areas and vertices of each sheet, with warnings for defects. If the options say so, the

@@ -29,7 +29,7 @@ Input_names names_of(const Options& o)
 }
 
 // Whether a surface is full of gaps, like that of an atlas, and unlike that of an organ.
-bool is_full_of_gaps(const Topology& topology, const Options& o)
+bool is_full_of_gaps(const Topology& topology, const Input_options& o)
 {
   constexpr std::size_t many = 5;
   const Solid& s = topology.surface;
@@ -38,7 +38,7 @@ bool is_full_of_gaps(const Topology& topology, const Options& o)
 }
 
 // Adds the largest differences: a surface may have thousands of specks.
-void add_differences(const Topology& topology, const Options& o, std::vector<std::string>& warnings)
+void add_differences(const Topology& topology, const Input_options& o, std::vector<std::string>& warnings)
 {
   const bool has_gaps = is_full_of_gaps(topology, o);
   if(has_gaps)
