@@ -70,7 +70,7 @@ Aspect_ratios aspect_ratios_of(const Mesh& mesh)
           mm3::histogram(mesh, mm3::aspect_ratio_coefficient, histogram_edges())};
 }
 
-void examine(const Mesh& mesh, const Surface& surface, Surface_tree tree, const Options& options,
+void examine(const Mesh& mesh, const Surface& surface, Surface_tree tree, const Meshing_options& options,
              Stage_log& log, Outcome& outcome)
 {
   const bool is_fitted = options.fit() != Fit::NONE, is_in_mm = options.is_in_patient_space();

@@ -7,7 +7,6 @@
 
 #include "core/messages.h"
 #include "mixed_mesh_3/nodes.h"
-#include "mixed_mesh_3/options.h"
 #include "mixed_mesh_3/verdict.h"
 
 #include <CGAL/Mixed_mesh_3/boundary_faces.h>

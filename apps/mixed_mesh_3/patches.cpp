@@ -44,34 +44,33 @@ std::vector<std::string> names_in_files(const std::vector<Subdomain_option>& she
 
 // Checks that no face is certain to be in two sets, where a file has one set for each face. Other patches may
 // have faces in common as well, which the writer finds.
-void check_overlaps(const std::vector<Patch_option>& patches, const std::vector<std::string>& outputs,
-                    bool msh2, const std::vector<Subdomain>& subdomains)
+void check_overlaps(const Output_options& o, const std::vector<Subdomain>& subdomains)
 {
-  const auto is_exclusive = [msh2](const std::string& path) {
+  const auto is_exclusive = [&o](const std::string& path) {
     const auto format = mm3::IO::format_of(path);
     return format
            && !mm3::IO::has_overlapping_facet_sets(
-             msh2 && *format == mm3::IO::Format::MSH_4_1 ? mm3::IO::Format::MSH_2_2 : *format);
+             o.msh2 && *format == mm3::IO::Format::MSH_4_1 ? mm3::IO::Format::MSH_2_2 : *format);
   };
-  const auto file = std::find_if(outputs.begin(), outputs.end(), is_exclusive);
-  if(file == outputs.end() || patches.empty())
+  const auto file = std::find_if(o.outputs.begin(), o.outputs.end(), is_exclusive);
+  if(file == o.outputs.end() || o.patches.empty())
     return;
   const std::string reason = *file + ": two facet sets share a face, which this format cannot hold: ";
   if(subdomains.size() > 1)
-    throw std::runtime_error(reason + patches.front().text() + ", and that of a subdomain");
-  for(auto p = patches.begin(); p != patches.end(); ++p)
-    for(auto other = patches.begin(); other != p; ++other)
+    throw std::runtime_error(reason + o.patches.front().text() + ", and that of a subdomain");
+  for(auto p = o.patches.begin(); p != o.patches.end(); ++p)
+    for(auto other = o.patches.begin(); other != p; ++other)
       if(other->place == p->place)
         throw std::runtime_error(reason + other->text() + ", and " + p->text());
 }
 
 } // namespace
 
-std::vector<Patch> read_patches(const Options& o, const std::vector<Subdomain>& subdomains,
-                                std::vector<std::string>& warnings)
+std::vector<Patch> read_patches(const Input_options& inputs, const Output_options& o,
+                                const std::vector<Subdomain>& subdomains, std::vector<std::string>& warnings)
 {
-  check_overlaps(o.patches, o.outputs, o.msh2, subdomains);
-  const std::vector<std::string> names = names_in_files(o.sheets, subdomains);
+  check_overlaps(o, subdomains);
+  const std::vector<std::string> names = names_in_files(inputs.sheets, subdomains);
   std::vector<Patch> patches;
   for(const Patch_option& p : o.patches) {
     if(std::any_of(names.begin(), names.end(),
@@ -82,7 +81,8 @@ std::vector<Patch> read_patches(const Options& o, const std::vector<Subdomain>& 
       continue;
     }
     Surface_facts facts;
-    const auto surface = std::make_shared<const Closed_surface>(p.place, o.surface_options, facts, warnings);
+    const auto surface = std::make_shared<const Closed_surface>(p.place, inputs.surface_options, facts,
+                                                                warnings);
     patches.push_back(
       {p, [surface](const std::array<double, 3>& point, double) { return surface->contains(point); }});
   }

@@ -125,7 +125,7 @@ void describe_ratios(const Aspect_ratios& ratios, const char* when, Json& qualit
   quality["histograms"]["ARC"][when] = ratios.histogram;
 }
 
-Json describe_quality(const Options& o, const Outcome& outcome)
+Json describe_quality(const Meshing_options& o, const Outcome& outcome)
 {
   Json quality;
   if(o.has_quality_bound())

@@ -113,8 +113,8 @@ struct Observer
 };
 
 // Makes a mesh, with its boundary on the surface if the library fits it.
-Mesh make_mesh(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_regions_3& regions, const Options& o,
-               Stage_log& log, Outcome& outcome)
+Mesh make_mesh(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_regions_3& regions,
+               const Meshing_options& o, Stage_log& log, Outcome& outcome)
 {
   auto criteria = CGAL::Mixed_mesh_criteria_3(o.vertices)
                     .fit_to_surface(o.fit() == Fit::OPTIMIZATION)
@@ -142,8 +142,8 @@ Mesh make_mesh(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_regions_3
 
 // Makes meshes until one fills the budget in nodes, at most three, and takes the best: the one with most
 // nodes of those within the budget.
-Mesh make_mesh_of_nodes(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_regions_3& regions, Options o,
-                        Stage_log& log, Outcome& outcome)
+Mesh make_mesh_of_nodes(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_regions_3& regions,
+                        Meshing_options o, Stage_log& log, Outcome& outcome)
 {
   constexpr std::size_t most_meshes = 3;
   const auto rank = [&o](std::size_t nodes) { return (nodes <= o.nodes ? 1. : -1.) * double(nodes); };
@@ -213,8 +213,8 @@ Work_plan plan_for(Fit fit, std::size_t vertices)
 }
 
 // Makes a mesh on the surface, or stops at a signal or the limit of time.
-Mesh make_mesh_until_stopped(const Domain& domain, const Inputs& inputs, const Options& o, Stage_log& log,
-                             Outcome& outcome)
+Mesh make_mesh_until_stopped(const Domain& domain, const Inputs& inputs, const Meshing_options& o,
+                             const Relaxation_options& relaxation, Stage_log& log, Outcome& outcome)
 {
   const Deferred_signals deferred({SIGINT}, Deferred_signals::Second::ENDS);
   log.stop_when([&] { return Deferred_signals::has_come() || log.seconds() > o.time_limit; });
@@ -226,7 +226,7 @@ Mesh make_mesh_until_stopped(const Domain& domain, const Inputs& inputs, const O
   refuse(outcome.result, o);
   outcome.is_stopped = outcome.result.status == CGAL::Mixed_mesh_status::STOPPED;
   if(o.fit() == Fit::ALGORITHM_1 && !outcome.is_stopped)
-    fit_by_algorithm_1(mesh, domain, o, log, outcome);
+    fit_by_algorithm_1(mesh, domain, relaxation, log, outcome);
   if(outcome.is_stopped) {
     const std::string by = Deferred_signals::has_come() ? "a signal" : "--time-limit";
     outcome.warnings.push_back(
@@ -292,7 +292,7 @@ bool run(Options o)
     check_tolerance(o.tolerance, o.surface, *inputs.boundary);
   Domain domain = log("AABB tree of surface", [&] { return make_domain(inputs.subdomains); });
   const std::vector<Sheet> sheets = add_sheets(o, domain, outcome.warnings);
-  const std::vector<Patch> patches = read_patches(o, inputs.subdomains, outcome.warnings);
+  const std::vector<Patch> patches = read_patches(o, o, inputs.subdomains, outcome.warnings);
   check_regions(domain, inputs, o, outcome);
   log.expect(plan_for(o.fit(), o.vertices));
   constexpr unsigned seconds_until_exit = 2; // from Ctrl-C
@@ -302,7 +302,7 @@ bool run(Options o)
                      + std::to_string(seconds_until_exit)
                      + " s, nothing is written; --time-limit waits for one",
                    1);
-  Mesh mesh = make_mesh_until_stopped(domain, inputs, o, log, outcome);
+  Mesh mesh = make_mesh_until_stopped(domain, inputs, o, o, log, outcome);
   o.vertices = outcome.result.vertex_budget; // number found by --vertices auto
   const std::vector<std::string> warnings = outcome.warnings;
   Surface_tree tree;

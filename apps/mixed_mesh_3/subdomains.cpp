@@ -190,7 +190,7 @@ void measure_visible_parts(std::vector<Subdomain>& subdomains)
   }
 }
 
-void check_layers(const std::vector<Subdomain>& subdomains, const Options& o,
+void check_layers(const std::vector<Subdomain>& subdomains, const Meshing_options& o,
                   std::vector<std::string>& warnings)
 {
   // Edges of a layer, in its thickness, with which all checks hold: spherical layers around a ball of 90 mm
@@ -228,7 +228,7 @@ void check_layers(const std::vector<Subdomain>& subdomains, const Options& o,
 }
 
 void examine_subdomains(const Mesh& mesh, const Domain& domain, const std::vector<Subdomain>& subdomains,
-                        const Options& options, Outcome& outcome)
+                        const Meshing_options& options, Outcome& outcome)
 {
   if(outcome.has_lost_labels)
     outcome.result.status = mm3::worse_status(outcome.result.status, CGAL::Mixed_mesh_status::PARTS_LOST);
