@@ -10,10 +10,27 @@
 
 #include "core/Stage_log.h"
 #include "core/types.h"
-#include "mixed_mesh_3/options.h"
 
+#include <CGAL/Mixed_mesh_fit_criteria_3.h>
 #include <CGAL/Mixed_mesh_fit_result_3.h>
 #include <CGAL/Labeled_polyhedral_mixed_mesh_domain_3.h>
+
+/// The solver of the linear systems of Algorithm 1.
+enum class Solver { CG, LDLT };
+
+/// The parameters of Algorithm 1.
+struct Relaxation_options
+{
+  using Criteria = CGAL::Mixed_mesh_fit_criteria_3;
+
+  int steps = Criteria().number_of_steps();
+  int layers = Criteria::automatic;
+  double poisson_ratio = Criteria().poisson_ratio();
+  double stiffness_factor = Criteria().stiffness_factor();
+  double maximal_stiffness = Criteria().maximal_stiffness();
+  double acceptable_quality = Criteria().acceptable_aspect_ratio();
+  Solver solver = Solver::CG;
+};
 
 /// Brings the boundary onto the surface by Algorithm 1. \pre the program was built with Eigen and the solver
 CGAL::Mixed_mesh_fit_result_3 run_algorithm_1(Mesh& mesh,

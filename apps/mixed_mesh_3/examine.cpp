@@ -29,37 +29,34 @@ Shapes shapes_of(const Mesh& mesh)
 }
 
 // A sentence with the unit of volumes, which the library does not know, where the program knows the unit.
-std::string with_unit(std::string sentence, const Options& options)
+std::string with_unit(std::string sentence, bool is_in_mm)
 {
   const std::string unknown = "cubic units";
   const std::size_t at = sentence.find(unknown);
-  return at != std::string::npos && options.is_in_patient_space()
-           ? sentence.replace(at, unknown.size(), "mm^3")
-           : sentence;
+  return at != std::string::npos && is_in_mm ? sentence.replace(at, unknown.size(), "mm^3") : sentence;
 }
 
 // The differences in units that the program knows.
-Topology topology_with_units(const Mesh& mesh, const Surface& surface, const Options& options,
-                             CGAL::Mixed_mesh_status& status)
+Topology topology_with_units(const Mesh& mesh, const Surface& surface, bool is_fitted, bool is_in_mm,
+                             CGAL::Mixed_mesh_result_3& result)
 {
-  Topology t = topology_of(mesh, surface, options.fit() != Fit::NONE, status);
+  Topology t = topology_of(mesh, surface, is_fitted, result.status);
   for(Difference& d : t.differences)
-    d.sentence = with_unit(d.sentence, options);
+    d.sentence = with_unit(d.sentence, is_in_mm);
   return t;
 }
 
-std::vector<Check> checks_of_fidelity(const Outcome& outcome, const Options& options)
+std::vector<Check> checks_of_fidelity(const Outcome& outcome, Fit fit)
 {
-  const bool is_fitted = options.fit() != Fit::NONE;
   std::vector<Check> checks{{"same topology as the surface", outcome.topology.is_same},
                             {"no part of the domain lost", outcome.result.number_of_lost_cells == 0}};
-  if(is_fitted) {
+  if(fit != Fit::NONE) {
     checks.push_back({"volume within 5 % of the surface's", outcome.fidelity.has_right_volume()});
     checks.push_back({"boundary vertices on the surface", outcome.fidelity.vertices_off == 0});
     if(outcome.result.optimization.length_of_sharp_edges > 0)
       checks.push_back(
         {"sharp edges kept", share_of_sharp_edges(outcome.result) >= least_share_of_sharp_edges});
-    if(options.fit() == Fit::OPTIMIZATION && outcome.result.tolerance > 0)
+    if(fit == Fit::OPTIMIZATION && outcome.result.tolerance > 0)
       checks.push_back({"distance within the tolerance", !outcome.fidelity.misses(outcome.result.tolerance)});
   }
   return checks;
@@ -73,9 +70,10 @@ Aspect_ratios aspect_ratios_of(const Mesh& mesh)
           mm3::histogram(mesh, mm3::aspect_ratio_coefficient, histogram_edges())};
 }
 
-void examine(const Mesh& mesh, const Surface& surface, Surface_tree tree, const Options& options,
+void examine(const Mesh& mesh, const Surface& surface, Surface_tree tree, const Meshing_options& options,
              Stage_log& log, Outcome& outcome)
 {
+  const bool is_fitted = options.fit() != Fit::NONE, is_in_mm = options.is_in_patient_space();
   mm3::Mesh_certificate certificate{log("checks", [&] { return mm3::find_defects(mesh); })};
   if(certificate.defects.none()) {
     std::size_t& self_intersections = certificate.number_of_self_intersections;
@@ -94,7 +92,7 @@ void examine(const Mesh& mesh, const Surface& surface, Surface_tree tree, const 
           vertices = mm3::vertices_of(faces).size();
         }},
        {"topology",
-        [&] { outcome.topology = topology_with_units(mesh, surface, options, outcome.result.status); }},
+        [&] { outcome.topology = topology_with_units(mesh, surface, is_fitted, is_in_mm, outcome.result); }},
        {"quality", [&] {
           outcome.after = aspect_ratios_of(mesh);
           outcome.shapes = shapes_of(mesh);
@@ -106,7 +104,7 @@ void examine(const Mesh& mesh, const Surface& surface, Surface_tree tree, const 
     outcome.checks.push_back({check.name, check.holds});
   require_all(outcome.checks, certificate.number_of_self_intersections); // throws if there are defects
   require_volume(options, outcome);
-  outcome.checks_of_fidelity = checks_of_fidelity(outcome, options);
+  outcome.checks_of_fidelity = checks_of_fidelity(outcome, options.fit());
 
   outcome.mesh = facts_of(mesh);
   for(mm3::Element_index e = 0; e < mesh.number_of_elements(); ++e)

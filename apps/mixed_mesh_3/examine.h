@@ -11,7 +11,7 @@
 #include "core/Stage_log.h"
 #include "core/comparison.h"
 #include "core/read_surface.h"
-#include "mixed_mesh_3/options.h"
+#include "mixed_mesh_3/meshing_options.h"
 #include "mixed_mesh_3/outcome.h"
 
 /// The aspect-ratio coefficients of a mesh.
@@ -22,7 +22,7 @@ Aspect_ratios aspect_ratios_of(const Mesh& mesh);
 /// \param tree tree of the surface; if null, it is built
 /// \throw Invalid_mesh if a check fails
 /// \throw std::runtime_error if the volume is impossible
-void examine(const Mesh& mesh, const Surface& surface, Surface_tree tree, const Options& options,
+void examine(const Mesh& mesh, const Surface& surface, Surface_tree tree, const Meshing_options& options,
              Stage_log& log, Outcome& outcome);
 
 #endif // MIXED_MESH_3_APPS_MIXED_MESH_3_EXAMINE_H

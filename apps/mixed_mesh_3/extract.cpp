@@ -91,29 +91,30 @@ void reduce(mm3::IO::Facet_set& set, const Faces_of_part& faces)
 
 } // namespace
 
-void check_names_to_extract(const Options& o, const std::vector<Subdomain>& subdomains)
+void check_names_to_extract(const std::vector<std::string>& names, const std::vector<Subdomain>& subdomains)
 {
-  for(const std::string& name : o.extract)
+  for(const std::string& name : names)
     if(subdomain_named(name, subdomains) == nullptr) {
-      std::vector<std::string> names;
+      std::vector<std::string> known;
       for(const Subdomain& s : subdomains)
         if(s.index != 0)
-          names.push_back(s.name);
-      throw std::runtime_error("--extract " + name + ": " + sentence_on_no_subdomain(names)
+          known.push_back(s.name);
+      throw std::runtime_error("--extract " + name + ": " + sentence_on_no_subdomain(known)
                                + "; smoothing or completion may leave nothing of others");
     }
 }
 
-void extract(const Options& o, const std::vector<Subdomain>& subdomains, Mesh& mesh,
+void extract(const std::vector<std::string>& names, int order, const std::string& budget,
+             const std::vector<Subdomain>& subdomains, Mesh& mesh,
              std::vector<mm3::IO::Facet_set>& facet_sets, Outcome& outcome)
 {
-  if(o.extract.empty())
+  if(names.empty())
     return;
   const std::map<mm3::Subdomain_index, double> volumes = mm3::volumes_of_subdomains(mesh);
   Extract_outcome result;
   std::vector<mm3::Subdomain_index> indices;
   for(const Subdomain& s : subdomains) { // in their order
-    if(std::none_of(o.extract.begin(), o.extract.end(),
+    if(std::none_of(names.begin(), names.end(),
                     [&s](const std::string& name) { return boost::iequals(s.name, name); })
        || s.index == 0)
       continue;
@@ -122,7 +123,7 @@ void extract(const Options& o, const std::vector<Subdomain>& subdomains, Mesh& m
       throw std::runtime_error("--extract " + s.name
                                + ": the mesh has no element of this subdomain, which is too small for its "
                                  "cells; try more than "
-                               + o.budget());
+                               + budget);
     indices.push_back(s.index);
     result.subdomains.push_back(s.name);
     result.volume += volume->second;
@@ -138,7 +139,7 @@ void extract(const Options& o, const std::vector<Subdomain>& subdomains, Mesh& m
     reduce(set, faces);
   mesh = std::move(part);
   result.mesh = facts_of(mesh);
-  result.nodes = number_of_nodes(mesh, o.order);
+  result.nodes = number_of_nodes(mesh, order);
   result.boundary_faces = mm3::boundary_faces(mesh).size();
   result.bad_edges = defects.nonmanifold_boundary_edges;
   result.bad_vertices = defects.nonmanifold_boundary_vertices;

@@ -10,7 +10,7 @@
 
 #include "core/Stage_log.h"
 #include "core/read_surface.h"
-#include "mixed_mesh_3/options.h"
+#include "mixed_mesh_3/meshing_options.h"
 #include "mixed_mesh_3/outcome.h"
 #include "mixed_mesh_3/subdomains.h"
 

@@ -10,7 +10,7 @@
 
 #include "core/read_label_surface.h"
 #include "core/voxel_selection.h"
-#include "mixed_mesh_3/options.h"
+#include "mixed_mesh_3/meshing_options.h"
 #include "mixed_mesh_3/outcome.h"
 
 #include <CGAL/Mixed_mesh_3/Element_attributes.h>

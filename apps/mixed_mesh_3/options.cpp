@@ -47,7 +47,7 @@ double weight_option(const std::string& option, const std::string& text)
   return weight;
 }
 
-void set_largest_arc(const std::string& text, Options& o)
+void set_largest_arc(const std::string& text, Meshing_options& o)
 {
   const std::string strict = ",strict";
   o.is_arc_strict = boost::algorithm::ends_with(text, strict);
@@ -73,7 +73,8 @@ Region_option region_option(const std::string& text)
 
 // The labels of an option, which a function of the text and of the table reads.
 template <class Read>
-auto labels_option(const std::string& option, const std::string& text, const Options& o, const Read& read)
+auto labels_option(const std::string& option, const std::string& text, const Input_options& o,
+                   const Read& read)
 {
   try {
     return read(text, o.label_table);
@@ -128,7 +129,7 @@ const char* const freesurfer_labels =
   "ventricles=4-5,14-15,31,43-44,63,72,fluid=24,brain_stem=16";
 
 // Sets the labels of one domain, or of several with names.
-void set_labels(const std::string& text, Options& o)
+void set_labels(const std::string& text, Input_options& o)
 {
   const std::string option = "--labels " + text;
   o.label_choice = text == "each"                        ? Label_choice::EACH
@@ -148,7 +149,7 @@ void set_labels(const std::string& text, Options& o)
 }
 
 // The option of a region by labels, with a weight after a colon.
-Region_option region_of_labels(const std::string& text, const Options& o)
+Region_option region_of_labels(const std::string& text, const Input_options& o)
 {
   const std::string option = "--region-labels " + text;
   const std::size_t colon = text.find(':');
@@ -204,7 +205,7 @@ CLI::Option* add_several(CLI::App& app, const char* name, const char* what,
 }
 
 // Adds the options that choose components of the domain.
-void add_components(CLI::App& app, Options& o)
+void add_components(CLI::App& app, Input_options& o)
 {
   app.add_flag("--largest", o.completion.keep_largest,
                "Keep only the largest component of the domain SURFACE, with its cavities");
@@ -217,7 +218,7 @@ void add_components(CLI::App& app, Options& o)
 }
 
 // Adds the options for a domain and regions from a segmentation.
-void add_labels(CLI::App& app, Options& o)
+void add_labels(CLI::App& app, Input_options& o)
 {
   const char* const group = "Options of images";
   // The table is read before the options that use its names: options are parsed in the order in which they
@@ -301,7 +302,7 @@ void add_labels(CLI::App& app, Options& o)
     ->group(group);
 }
 
-void add_files(CLI::App& app, Options& o)
+void add_files(CLI::App& app, Meshing_options& o)
 {
   app
     .add_option("SURFACE", o.surface,
@@ -336,7 +337,7 @@ void add_files(CLI::App& app, Options& o)
                "in the budget");
 }
 
-void add_budget(CLI::App& app, Options& o)
+void add_budget(CLI::App& app, Meshing_options& o)
 {
   constexpr std::size_t most = 1000000000; // the limit is that of 32-bit indices in files
   app
@@ -363,7 +364,7 @@ void add_budget(CLI::App& app, Options& o)
     ->excludes("--vertices");
 }
 
-void add_outputs(CLI::App& app, Options& o)
+void add_outputs(CLI::App& app, Output_options& o)
 {
   app
     .add_option("--output", o.outputs,
@@ -400,7 +401,7 @@ void add_outputs(CLI::App& app, Options& o)
 }
 
 // Returns the option that those of Algorithm 1 need.
-CLI::Option* add_fit(CLI::App& app, Options& o)
+CLI::Option* add_fit(CLI::App& app, Meshing_options& o)
 {
   app
     .add_option("--base-level", o.base_level,
@@ -457,7 +458,7 @@ CLI::Option* add_fit(CLI::App& app, Options& o)
   return no_optimize;
 }
 
-void add_stages(CLI::App& app, Options& o)
+void add_stages(CLI::App& app, Meshing_options& o)
 {
   const std::map<std::string, mm3::Boundary_mode> modes{{"default", mm3::Boundary_mode::VERTEX_ORDER},
                                                         {"paper", mm3::Boundary_mode::PAPER}};
@@ -480,7 +481,7 @@ void add_stages(CLI::App& app, Options& o)
 }
 
 // Adds the options of Algorithm 1, which need --no-optimize.
-void add_algorithm_1(CLI::App& app, Options& o, CLI::Option* no_optimize)
+void add_algorithm_1(CLI::App& app, Relaxation_options& o, CLI::Option* no_optimize)
 {
   const std::map<std::string, Solver> solvers{{"cg", Solver::CG}, {"ldlt", Solver::LDLT}};
   const auto at_least_1 = number("of at least 1", [](double x) { return x >= 1; });
@@ -565,7 +566,7 @@ void set_up(CLI::App& app, Options& o)
 }
 
 // The names of labels after merges; of each label, which the image tells, those of merges only.
-std::vector<std::string> names_of_labels(const Options& o)
+std::vector<std::string> names_of_labels(const Input_options& o)
 {
   std::vector<std::string> names;
   for(const Subdomain_option& s : o.labels)
@@ -587,7 +588,7 @@ std::vector<std::string> names_of_labels(const Options& o)
 }
 
 // The names of subdomains, except those of each label, and of what is around all.
-std::vector<std::string> names_of_subdomains(const Options& o)
+std::vector<std::string> names_of_subdomains(const Input_options& o)
 {
   const std::vector<std::string> labels = names_of_labels(o);
   std::vector<std::string> names = labels;
@@ -608,7 +609,7 @@ std::vector<std::string> names_of_subdomains(const Options& o)
 }
 
 // Checks that names differ, and that options for a single subdomain are not used with several.
-void check_subdomains(const Options& o)
+void check_subdomains(const Meshing_options& o)
 {
   std::vector<std::string> names = names_of_subdomains(o);
   if(names.empty() && o.cavities.empty() && o.label_choice == Label_choice::NONE)
@@ -626,7 +627,7 @@ void check_subdomains(const Options& o)
                                "knows neither subdomains nor cavities");
 }
 
-void check_sheets(const Options& o)
+void check_sheets(const Meshing_options& o)
 {
   if(o.slit && o.sheets.empty())
     throw CLI::ValidationError("--slit", "needs --sheet");
@@ -638,7 +639,7 @@ void check_sheets(const Options& o)
     throw CLI::ValidationError(o.no_optimize ? "--no-optimize" : "--mode paper", "knows no sheets");
 }
 
-void check_patches(const Options& o)
+void check_patches(const Output_options& o)
 {
   for(std::size_t i = 0; i < o.patches.size(); ++i)
     for(std::size_t j = 0; j < i; ++j) // some formats ignore upper and lower case
@@ -703,43 +704,6 @@ void check_options(Options& o)
 
 } // namespace
 
-std::string Merge_option::text() const
-{
-  std::string text = "--merge " + name;
-  for(std::size_t i = 0; i < parts.size(); ++i)
-    text += (i == 0 ? '=' : '+') + parts[i];
-  return text;
-}
-
-bool is_subdomain_name(const std::string& name)
-{
-  return name.size() <= longest_subdomain_name && mm3::IO::is_facet_set_name(name);
-}
-
-bool Input_options::is_in_patient_space() const
-{
-  const auto silent = {".off", ".obj", ".stl", ".ply", ".vtp", ".vtk"}; // endings of files that do not tell
-  return surface_options.space || std::none_of(silent.begin(), silent.end(), [this](const char* ending) {
-           return boost::algorithm::iends_with(surface, ending);
-         });
-}
-
-std::string surrounding_name(const Input_options& o)
-{
-  const std::string file = std::filesystem::path(o.surface).filename().string(),
-                    name = file.substr(0, file.find('.'));
-  return is_subdomain_name(name) ? name : "domain";
-}
-
-std::string sentence_on_no_subdomain(const std::vector<std::string>& names)
-{
-  constexpr std::size_t most = 20; // an atlas has hundreds
-  std::string text = "there is no subdomain of that name, but ";
-  for(std::size_t i = 0; i < (std::min)(most, names.size()); ++i)
-    text += (i == 0 ? "" : ", ") + names[i];
-  return text + (names.size() > most ? ", and " + std::to_string(names.size() - most) + " more" : "");
-}
-
 std::optional<int> parse_command_line(int argc, char** argv, Options& options)
 {
   CLI::App app("Makes a mixed-element (hexahedra, prisms, pyramids, tetrahedra) finite-element mesh of the "
@@ -766,7 +730,7 @@ std::vector<std::string> inputs_of(const Options& o)
   return inputs;
 }
 
-std::vector<std::string> outputs_of(const Options& o)
+std::vector<std::string> outputs_of(const Output_options& o)
 {
   std::vector<std::string> outputs = o.outputs;
   for(const std::string& path : {o.report, o.page})

@@ -26,10 +26,11 @@ namespace mm3 = CGAL::Mixed_meshes_3;
 namespace {
 
 // Names of sets in the files, other than those of patches.
-std::vector<std::string> names_in_files(const Options& o, const std::vector<Subdomain>& subdomains)
+std::vector<std::string> names_in_files(const std::vector<Subdomain_option>& sheets,
+                                        const std::vector<Subdomain>& subdomains)
 {
   std::vector<std::string> names;
-  for(const Subdomain_option& sheet : o.sheets)
+  for(const Subdomain_option& sheet : sheets)
     for(const char* side : {"", "_front", "_behind"})
       names.push_back(sheet.name + side);
   for(std::size_t i = 0; subdomains.size() > 1 && i < subdomains.size(); ++i) {
@@ -43,7 +44,7 @@ std::vector<std::string> names_in_files(const Options& o, const std::vector<Subd
 
 // Checks that no face is certain to be in two sets, where a file has one set for each face. Other patches may
 // have faces in common as well, which the writer finds.
-void check_overlaps(const Options& o, const std::vector<Subdomain>& subdomains)
+void check_overlaps(const Output_options& o, const std::vector<Subdomain>& subdomains)
 {
   const auto is_exclusive = [&o](const std::string& path) {
     const auto format = mm3::IO::format_of(path);
@@ -65,11 +66,11 @@ void check_overlaps(const Options& o, const std::vector<Subdomain>& subdomains)
 
 } // namespace
 
-std::vector<Patch> read_patches(const Options& o, const std::vector<Subdomain>& subdomains,
-                                std::vector<std::string>& warnings)
+std::vector<Patch> read_patches(const Input_options& inputs, const Output_options& o,
+                                const std::vector<Subdomain>& subdomains, std::vector<std::string>& warnings)
 {
   check_overlaps(o, subdomains);
-  const std::vector<std::string> names = names_in_files(o, subdomains);
+  const std::vector<std::string> names = names_in_files(inputs.sheets, subdomains);
   std::vector<Patch> patches;
   for(const Patch_option& p : o.patches) {
     if(std::any_of(names.begin(), names.end(),
@@ -80,7 +81,8 @@ std::vector<Patch> read_patches(const Options& o, const std::vector<Subdomain>& 
       continue;
     }
     Surface_facts facts;
-    const auto surface = std::make_shared<const Closed_surface>(p.place, o.surface_options, facts, warnings);
+    const auto surface = std::make_shared<const Closed_surface>(p.place, inputs.surface_options, facts,
+                                                                warnings);
     patches.push_back(
       {p, [surface](const std::array<double, 3>& point, double) { return surface->contains(point); }});
   }

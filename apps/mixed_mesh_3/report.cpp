@@ -125,7 +125,7 @@ void describe_ratios(const Aspect_ratios& ratios, const char* when, Json& qualit
   quality["histograms"]["ARC"][when] = ratios.histogram;
 }
 
-Json describe_quality(const Options& o, const Outcome& outcome)
+Json describe_quality(const Meshing_options& o, const Outcome& outcome)
 {
   Json quality;
   if(o.has_quality_bound())
@@ -219,9 +219,9 @@ Json describe(const CGAL::Mixed_mesh_fit_result_3& r)
           {"elements not acceptable at the cap", r.number_of_unacceptable_elements}};
 }
 
-Json describe_fitting(const Options& o, const Outcome& outcome)
+Json describe_fitting(Fit fit, const Outcome& outcome)
 {
-  switch(o.fit()) {
+  switch(fit) {
   case Fit::OPTIMIZATION: return describe(outcome.result.optimization);
   case Fit::ALGORITHM_1: return describe(outcome.algorithm_1);
   case Fit::NONE: break;
@@ -229,14 +229,14 @@ Json describe_fitting(const Options& o, const Outcome& outcome)
   return {{"method", fit_names[int(Fit::NONE)]}};
 }
 
-Json describe_mesh(const Options& o, const Outcome& outcome)
+Json describe_mesh(std::size_t budget_in_nodes, std::size_t budget_in_vertices, const Outcome& outcome)
 {
   const double vertices = double(outcome.mesh.vertices);
   const std::size_t in_region = outcome.result.number_of_vertices_in_region;
   Json report = {{"vertices", outcome.mesh.vertices},
                  {"nodes", outcome.nodes},
-                 {"share of budget",
-                  o.nodes > 0 ? double(outcome.nodes) / double(o.nodes) : vertices / double(o.vertices)},
+                 {"share of budget", budget_in_nodes > 0 ? double(outcome.nodes) / double(budget_in_nodes)
+                                                         : vertices / double(budget_in_vertices)},
                  {"vertices in region", in_region},
                  {"share of vertices in region", double(in_region) / vertices},
                  {"elements", outcome.mesh.elements},
@@ -320,7 +320,7 @@ void describe_patches(const Outcome& outcome, Json& report)
 }
 
 // Describes the method by which the mesh was made.
-void describe_method(const Options& o, const Outcome& outcome, Json& report)
+void describe_method(Fit fit, const Outcome& outcome, Json& report)
 {
   const CGAL::Mixed_mesh_result_3& result = outcome.result;
   report["octree"] = {{"base level", result.base_level},
@@ -334,7 +334,7 @@ void describe_method(const Options& o, const Outcome& outcome, Json& report)
                                  {"by bisection of boundary edges",
                                   result.optimization.number_of_bisections}};
   report["vertices labeled inside for a manifold boundary"] = result.number_of_relabeled_vertices;
-  report["fitting"] = describe_fitting(o, outcome);
+  report["fitting"] = describe_fitting(fit, outcome);
   const double distance = outcome.fidelity.distance();
   if(result.tolerance > 0)
     report["tolerance"] = {{"tolerance", result.tolerance},
@@ -346,18 +346,18 @@ void describe_method(const Options& o, const Outcome& outcome, Json& report)
 }
 
 // A line for each subdomain, if there are several, each sheet and each patch.
-std::string parts_in_words(const Options& o, const Outcome& outcome)
+std::string parts_in_words(bool is_in_mm, const Outcome& outcome)
 {
-  const char* const unit_of_area = o.is_in_patient_space() ? " mm^2" : " square units";
+  const char* const unit_of_area = is_in_mm ? " mm^2" : " square units";
   std::ostringstream text;
   text << std::setprecision(4);
   for(const Subdomain_outcome& s : outcome.subdomains) {
     text << s.name << " (" << s.index << "): " << s.elements << " elements, volume "
-         << volume_with_unit(s.volume, o.is_in_patient_space());
+         << volume_with_unit(s.volume, is_in_mm);
     if(s.volume_of_surface)
       text << ", " << as_part_of(s.volume / *s.volume_of_surface) << " that of its "
            << (s.volume_of_voxels ? "voxels, " : "surface, ")
-           << volume_with_unit(*s.volume_of_surface, o.is_in_patient_space());
+           << volume_with_unit(*s.volume_of_surface, is_in_mm);
     text << '\n';
   }
   for(const Sheet_outcome& s : outcome.sheets)
@@ -372,7 +372,7 @@ std::string parts_in_words(const Options& o, const Outcome& outcome)
     for(const std::string& name : part.subdomains)
       names += (names.empty() ? "" : ", ") + name;
     text << "written of that: " << names << ", " << part.mesh.vertices << " vertices, " << part.mesh.elements
-         << " elements, volume " << volume_with_unit(part.volume, o.is_in_patient_space()) << '\n';
+         << " elements, volume " << volume_with_unit(part.volume, is_in_mm) << '\n';
   }
   for(const Patch_outcome& p : outcome.patches)
     text << p.name << ": " << counted(p.faces, "face", "faces") << " of the boundary, area " << p.area
@@ -449,8 +449,8 @@ Json report(const Options& o, const Outcome& outcome, const Stage_log& log)
                      {"angles and quad warp", "degrees"},
                      {"ARC, scaled Jacobian, shares and ratios", "1"}};
   report["status"] = mm3::description(outcome.result.status);
-  report["mesh"] = describe_mesh(o, outcome);
-  describe_method(o, outcome, report);
+  report["mesh"] = describe_mesh(o.nodes, o.vertices, outcome);
+  describe_method(o.fit(), outcome, report);
   report["surface"] = describe(outcome.fidelity);
   describe_subdomains(outcome, report);
   describe_sheets(outcome, report);
@@ -493,8 +493,8 @@ void print_summary(const Options& o, const Outcome& outcome)
             << "; Hausdorff distance " << outcome.fidelity.distance()
             << (o.is_in_patient_space() ? " mm; " : "; ") << as_part_of(outcome.fidelity.ratio_of_volumes())
             << " the surface's volume\n"
-            << parts_in_words(o, outcome) << checks_in_words(outcome) << "; " << duration(outcome.seconds)
-            << '\n';
+            << parts_in_words(o.is_in_patient_space(), outcome) << checks_in_words(outcome) << "; "
+            << duration(outcome.seconds) << '\n';
   for(const std::string& path : o.outputs)
     std::cout << "wrote " << printable(path) << '\n';
   for(const std::string& path : {o.report, o.page})

@@ -45,7 +45,7 @@ using Domain = CGAL::Labeled_polyhedral_mixed_mesh_domain_3;
 namespace {
 
 // Checks the tolerance: the library tests points of the surface in a grid of twice the tolerance.
-void check_tolerance(const Options& o, const Surface& surface)
+void check_tolerance(double tolerance, const std::string& file, const Surface& surface)
 {
   constexpr double most = 1e7; // takes an hour
   double number = 0;
@@ -54,18 +54,18 @@ void check_tolerance(const Options& o, const Surface& surface)
     for(const auto h : halfedges_around_face(halfedge(f, surface), surface))
       longest = (std::max)(longest, CGAL::squared_distance(surface.point(source(h, surface)),
                                                            surface.point(target(h, surface))));
-    const double n = (std::min)(std::ceil(std::sqrt(longest) / (2 * o.tolerance)), 1000.);
+    const double n = (std::min)(std::ceil(std::sqrt(longest) / (2 * tolerance)), 1000.);
     number += 0.5 * (n - 1) * n;
   }
   if(number > most)
-    throw std::runtime_error("--tolerance " + rounded(o.tolerance) + ": too small for " + o.surface
-                             + ", it would take hours; " + rounded(o.tolerance * std::sqrt(number / most))
+    throw std::runtime_error("--tolerance " + rounded(tolerance) + ": too small for " + file
+                             + ", it would take hours; " + rounded(tolerance * std::sqrt(number / most))
                              + " takes about one");
 }
 
 // Checks that regions meet the domain: a region elsewhere is no region; if the reason is plain, the message
 // gives the reason.
-void check_regions(const Domain& domain, const Inputs& inputs, const Options& o, Outcome& outcome)
+void check_regions(const Domain& domain, const Inputs& inputs, const Input_options& o, Outcome& outcome)
 {
   std::vector<std::string> defects;
   bool are_all_apart = true;
@@ -84,14 +84,14 @@ void check_regions(const Domain& domain, const Inputs& inputs, const Options& o,
 }
 
 // The regions; without any, the region is everywhere.
-CGAL::Polyhedral_mixed_mesh_regions_3 make_regions(const std::vector<Surface>& surfaces, const Options& o,
-                                                   Stage_log& log)
+CGAL::Polyhedral_mixed_mesh_regions_3 make_regions(const std::vector<Surface>& surfaces,
+                                                   const std::vector<Region_option>& options, Stage_log& log)
 {
   CGAL::Polyhedral_mixed_mesh_regions_3 regions;
   for(std::size_t i = 0; i < surfaces.size(); ++i)
     log("AABB tree of region", [&] {
       regions.add(std::make_shared<const CGAL::Polyhedral_mixed_mesh_region_3>(surfaces[i]),
-                  o.regions[i].weight);
+                  options[i].weight);
     });
   return regions;
 }
@@ -113,8 +113,8 @@ struct Observer
 };
 
 // Makes a mesh, with its boundary on the surface if the library fits it.
-Mesh make_mesh(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_regions_3& regions, const Options& o,
-               Stage_log& log, Outcome& outcome)
+Mesh make_mesh(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_regions_3& regions,
+               const Meshing_options& o, Stage_log& log, Outcome& outcome)
 {
   auto criteria = CGAL::Mixed_mesh_criteria_3(o.vertices)
                     .fit_to_surface(o.fit() == Fit::OPTIMIZATION)
@@ -142,8 +142,8 @@ Mesh make_mesh(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_regions_3
 
 // Makes meshes until one fills the budget in nodes, at most three, and takes the best: the one with most
 // nodes of those within the budget.
-Mesh make_mesh_of_nodes(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_regions_3& regions, Options o,
-                        Stage_log& log, Outcome& outcome)
+Mesh make_mesh_of_nodes(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_regions_3& regions,
+                        Meshing_options o, Stage_log& log, Outcome& outcome)
 {
   constexpr std::size_t most_meshes = 3;
   const auto rank = [&o](std::size_t nodes) { return (nodes <= o.nodes ? 1. : -1.) * double(nodes); };
@@ -181,7 +181,8 @@ Mesh make_mesh_of_nodes(const Domain& domain, const CGAL::Polyhedral_mixed_mesh_
 
 // Brings the boundary onto the surface by the paper's method; the status becomes the corresponding status of
 // the library.
-void fit_by_algorithm_1(Mesh& mesh, const Domain& domain, const Options& o, Stage_log& log, Outcome& outcome)
+void fit_by_algorithm_1(Mesh& mesh, const Domain& domain, const Relaxation_options& o, Stage_log& log,
+                        Outcome& outcome)
 {
   using Status = CGAL::Mixed_mesh_fit_status;
   outcome.before = log("quality", [&] { return aspect_ratios_of(mesh); });
@@ -204,20 +205,20 @@ void fit_by_algorithm_1(Mesh& mesh, const Domain& domain, const Options& o, Stag
 }
 
 // The work of a run, measured on the brain with 660 to 50,000 vertices.
-Work_plan plan_for(const Options& o)
+Work_plan plan_for(Fit fit, std::size_t vertices)
 {
-  if(o.fit() == Fit::NONE)
+  if(fit == Fit::NONE)
     return {0.6, 0.6, 10, 1};
-  return {0.2, 0.9, 10, o.vertices <= 20000 ? 17u : 12u};
+  return {0.2, 0.9, 10, vertices <= 20000 ? 17u : 12u};
 }
 
 // Makes a mesh on the surface, or stops at a signal or the limit of time.
-Mesh make_mesh_until_stopped(const Domain& domain, const Inputs& inputs, const Options& o, Stage_log& log,
-                             Outcome& outcome)
+Mesh make_mesh_until_stopped(const Domain& domain, const Inputs& inputs, const Meshing_options& o,
+                             const Relaxation_options& relaxation, Stage_log& log, Outcome& outcome)
 {
   const Deferred_signals deferred({SIGINT}, Deferred_signals::Second::ENDS);
   log.stop_when([&] { return Deferred_signals::has_come() || log.seconds() > o.time_limit; });
-  const auto regions = make_regions(inputs.regions, o, log);
+  const auto regions = make_regions(inputs.regions, o.regions, log);
   Mesh mesh = o.nodes > 0 ? make_mesh_of_nodes(domain, regions, o, log, outcome)
                           : make_mesh(domain, regions, o, log, outcome);
   if(outcome.result.status == CGAL::Mixed_mesh_status::STOPPED && !outcome.result.has_mesh())
@@ -225,7 +226,7 @@ Mesh make_mesh_until_stopped(const Domain& domain, const Inputs& inputs, const O
   refuse(outcome.result, o);
   outcome.is_stopped = outcome.result.status == CGAL::Mixed_mesh_status::STOPPED;
   if(o.fit() == Fit::ALGORITHM_1 && !outcome.is_stopped)
-    fit_by_algorithm_1(mesh, domain, o, log, outcome);
+    fit_by_algorithm_1(mesh, domain, relaxation, log, outcome);
   if(outcome.is_stopped) {
     const std::string by = Deferred_signals::has_come() ? "a signal" : "--time-limit";
     outcome.warnings.push_back(
@@ -285,15 +286,15 @@ bool run(Options o)
   Stage_log log(!o.quiet);
   Outcome outcome;
   const Inputs inputs = read_inputs(o, log, outcome);
-  check_names_to_extract(o, inputs.subdomains);
+  check_names_to_extract(o.extract, inputs.subdomains);
   check_layers(inputs.subdomains, o, outcome.warnings);
   if(o.tolerance > 0)
-    check_tolerance(o, *inputs.boundary);
+    check_tolerance(o.tolerance, o.surface, *inputs.boundary);
   Domain domain = log("AABB tree of surface", [&] { return make_domain(inputs.subdomains); });
   const std::vector<Sheet> sheets = add_sheets(o, domain, outcome.warnings);
-  const std::vector<Patch> patches = read_patches(o, inputs.subdomains, outcome.warnings);
+  const std::vector<Patch> patches = read_patches(o, o, inputs.subdomains, outcome.warnings);
   check_regions(domain, inputs, o, outcome);
-  log.expect(plan_for(o));
+  log.expect(plan_for(o.fit(), o.vertices));
   constexpr unsigned seconds_until_exit = 2; // from Ctrl-C
   std::optional<Signal_deadline> deadline;
   deadline.emplace(seconds_until_exit,
@@ -301,7 +302,7 @@ bool run(Options o)
                      + std::to_string(seconds_until_exit)
                      + " s, nothing is written; --time-limit waits for one",
                    1);
-  Mesh mesh = make_mesh_until_stopped(domain, inputs, o, log, outcome);
+  Mesh mesh = make_mesh_until_stopped(domain, inputs, o, o, log, outcome);
   o.vertices = outcome.result.vertex_budget; // number found by --vertices auto
   const std::vector<std::string> warnings = outcome.warnings;
   Surface_tree tree;
@@ -314,7 +315,7 @@ bool run(Options o)
   examine_subdomains(mesh, domain, inputs.subdomains, o, outcome);
   std::vector<mm3::IO::Facet_set> facet_sets = examine_sheets(mesh, domain, sheets, o, outcome);
   outcome.nodes = number_of_nodes(mesh, o.order); // with those that --slit doubles
-  extract(o, inputs.subdomains, mesh, facet_sets, outcome);
+  extract(o.extract, o.order, o.budget(), inputs.subdomains, mesh, facet_sets, outcome);
   for(mm3::IO::Facet_set& set : interfaces_of(mesh, inputs.subdomains))
     facet_sets.push_back(std::move(set));
   for(mm3::IO::Facet_set& set : examine_patches(mesh, patches, outcome))

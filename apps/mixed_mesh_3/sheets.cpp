@@ -22,7 +22,7 @@ using Domain = CGAL::Labeled_polyhedral_mixed_mesh_domain_3;
 
 namespace {
 
-void warn_of(const Sheet_outcome& s, const Options& o, std::vector<std::string>& warnings)
+void warn_of(const Sheet_outcome& s, const Meshing_options& o, std::vector<std::string>& warnings)
 {
   const std::string named = "the sheet " + s.name;
   if(s.faces == 0)
@@ -71,7 +71,8 @@ void slit_along(std::vector<mm3::IO::Facet_set>& sets, Mesh& mesh, Outcome& outc
 
 } // namespace
 
-std::vector<Sheet> add_sheets(const Options& options, Domain& domain, std::vector<std::string>& warnings)
+std::vector<Sheet> add_sheets(const Input_options& options, Domain& domain,
+                              std::vector<std::string>& warnings)
 {
   std::vector<Sheet> sheets;
   for(const Subdomain_option& s : options.sheets) {
@@ -84,8 +85,8 @@ std::vector<Sheet> add_sheets(const Options& options, Domain& domain, std::vecto
 }
 
 std::vector<mm3::IO::Facet_set> examine_sheets(Mesh& mesh, const Domain& domain,
-                                               const std::vector<Sheet>& sheets, const Options& options,
-                                               Outcome& outcome)
+                                               const std::vector<Sheet>& sheets,
+                                               const Meshing_options& options, Outcome& outcome)
 {
   std::vector<mm3::IO::Facet_set> sets;
   std::vector<mm3::Sheet_in_mesh> found = mm3::find_sheets(mesh, domain, on_surface);

@@ -10,7 +10,7 @@
 
 #include "core/facts.h"
 #include "core/types.h"
-#include "mixed_mesh_3/options.h"
+#include "mixed_mesh_3/meshing_options.h"
 #include "mixed_mesh_3/outcome.h"
 
 #include <CGAL/Labeled_polyhedral_mixed_mesh_domain_3.h>
@@ -29,7 +29,8 @@ struct Sheet
 };
 
 /// Reads the sheets of the options, and adds the sheets to the domain.
-std::vector<Sheet> add_sheets(const Options& options, CGAL::Labeled_polyhedral_mixed_mesh_domain_3& domain,
+std::vector<Sheet> add_sheets(const Input_options& options,
+                              CGAL::Labeled_polyhedral_mixed_mesh_domain_3& domain,
                               std::vector<std::string>& warnings);
 
 /// Examines faces, areas and vertices of each sheet, with warnings for defects. If the options say so, the
@@ -37,6 +38,6 @@ std::vector<Sheet> add_sheets(const Options& options, CGAL::Labeled_polyhedral_m
 /// \return the faces of each sheet; for a slit, both sides, `NAME_front` and `NAME_behind`
 std::vector<CGAL::Mixed_meshes_3::IO::Facet_set>
 examine_sheets(Mesh& mesh, const CGAL::Labeled_polyhedral_mixed_mesh_domain_3& domain,
-               const std::vector<Sheet>& sheets, const Options& options, Outcome& outcome);
+               const std::vector<Sheet>& sheets, const Meshing_options& options, Outcome& outcome);
 
 #endif // MIXED_MESH_3_APPS_MIXED_MESH_3_SHEETS_H

@@ -54,17 +54,17 @@ bool has_right_volume(const Subdomain_outcome& s)
              || std::abs(s.volume / *s.volume_of_surface - 1) <= tolerated_change_of_volume);
 }
 
-void warn_of(const Subdomain_outcome& s, const Options& o, std::vector<std::string>& warnings)
+void warn_of(const Subdomain_outcome& s, bool is_in_mm, const std::string& budget,
+             std::vector<std::string>& warnings)
 {
   const std::string named = "the subdomain " + s.name;
   if(s.elements == 0)
-    warnings.push_back(
-      named + ", of volume "
-      + volume_with_unit(s.volume_of_surface.value_or(s.surface.volume), o.is_in_patient_space())
-      + ", is lost: too small for the cells; try more than " + o.budget());
+    warnings.push_back(named + ", of volume "
+                       + volume_with_unit(s.volume_of_surface.value_or(s.surface.volume), is_in_mm)
+                       + ", is lost: too small for the cells; try more than " + budget);
   else if(!has_right_volume(s))
-    warnings.push_back(named + " has a volume of " + volume_with_unit(s.volume, o.is_in_patient_space())
-                       + ", " + percent(std::abs(s.volume / *s.volume_of_surface - 1))
+    warnings.push_back(named + " has a volume of " + volume_with_unit(s.volume, is_in_mm) + ", "
+                       + percent(std::abs(s.volume / *s.volume_of_surface - 1))
                        + (s.volume < *s.volume_of_surface ? " less" : " more")
                        + (s.volume_of_voxels ? " than its voxels have" : " than its surface encloses")
                        + "; try more vertices");
@@ -190,7 +190,7 @@ void measure_visible_parts(std::vector<Subdomain>& subdomains)
   }
 }
 
-void check_layers(const std::vector<Subdomain>& subdomains, const Options& o,
+void check_layers(const std::vector<Subdomain>& subdomains, const Meshing_options& o,
                   std::vector<std::string>& warnings)
 {
   // Edges of a layer, in its thickness, with which all checks hold: spherical layers around a ball of 90 mm
@@ -228,7 +228,7 @@ void check_layers(const std::vector<Subdomain>& subdomains, const Options& o,
 }
 
 void examine_subdomains(const Mesh& mesh, const Domain& domain, const std::vector<Subdomain>& subdomains,
-                        const Options& options, Outcome& outcome)
+                        const Meshing_options& options, Outcome& outcome)
 {
   if(outcome.has_lost_labels)
     outcome.result.status = mm3::worse_status(outcome.result.status, CGAL::Mixed_mesh_status::PARTS_LOST);
@@ -256,7 +256,7 @@ void examine_subdomains(const Mesh& mesh, const Domain& domain, const std::vecto
     s.volume_of_surface = subdomains[i].visible_volume;
     s.volume_of_voxels = subdomains[i].volume;
     s.mean_arc = s.elements > 0 ? sums[s.index] / double(s.elements) : 0;
-    warn_of(s, options, outcome.warnings);
+    warn_of(s, options.is_in_patient_space(), options.budget(), outcome.warnings);
     if(s.elements == 0)
       outcome.result.status = mm3::worse_status(outcome.result.status, CGAL::Mixed_mesh_status::PARTS_LOST);
     outcome.subdomains.push_back(std::move(s));

@@ -10,7 +10,7 @@
 
 #include "core/read_surface.h"
 #include "core/types.h"
-#include "mixed_mesh_3/options.h"
+#include "mixed_mesh_3/meshing_options.h"
 #include "mixed_mesh_3/outcome.h"
 
 #include <CGAL/Labeled_polyhedral_mixed_mesh_domain_3.h>
@@ -60,13 +60,14 @@ void measure_visible_parts(std::vector<Subdomain>& subdomains);
 /// Checks that the budget can hold the layers that labels are: each edge of a thin one may be some times as
 /// long as it is thick, on average. Too few vertices are told, and refused if nothing would be left of it,
 /// but for `--best-effort`.
-void check_layers(const std::vector<Subdomain>& subdomains, const Options& options,
+void check_layers(const std::vector<Subdomain>& subdomains, const Meshing_options& options,
                   std::vector<std::string>& warnings);
 
 /// Examines volumes, quality and interfaces of subdomains that the user has named, with warnings for defects;
 /// and sets a status for parts that the mesh does not have. Those lost before come last.
 void examine_subdomains(const Mesh& mesh, const CGAL::Labeled_polyhedral_mixed_mesh_domain_3& domain,
-                        const std::vector<Subdomain>& subdomains, const Options& options, Outcome& outcome);
+                        const std::vector<Subdomain>& subdomains, const Meshing_options& options,
+                        Outcome& outcome);
 
 /// The interfaces between two subdomains, such as `interface_tumor_brain`; with several subdomains, also the
 /// boundary of each subdomain, such as `outside_brain`.

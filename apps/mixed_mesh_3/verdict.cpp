@@ -17,7 +17,7 @@
 namespace {
 
 // The inputs and options as the user gave them.
-Input_names names_of(const Options& o)
+Input_names names_of(const Meshing_options& o)
 {
   std::vector<std::string> regions;
   for(const Region_option& r : o.regions)
@@ -29,7 +29,7 @@ Input_names names_of(const Options& o)
 }
 
 // Whether a surface is full of gaps, like that of an atlas, and unlike that of an organ.
-bool is_full_of_gaps(const Topology& topology, const Options& o)
+bool is_full_of_gaps(const Topology& topology, const Input_options& o)
 {
   constexpr std::size_t many = 5;
   const Solid& s = topology.surface;
@@ -38,7 +38,7 @@ bool is_full_of_gaps(const Topology& topology, const Options& o)
 }
 
 // Adds the largest differences: a surface may have thousands of specks.
-void add_differences(const Topology& topology, const Options& o, std::vector<std::string>& warnings)
+void add_differences(const Topology& topology, const Input_options& o, std::vector<std::string>& warnings)
 {
   const bool has_gaps = is_full_of_gaps(topology, o);
   if(has_gaps)
@@ -58,7 +58,7 @@ void add_differences(const Topology& topology, const Options& o, std::vector<std
 
 } // namespace
 
-void refuse(const CGAL::Mixed_mesh_result_3& result, const Options& o)
+void refuse(const CGAL::Mixed_mesh_result_3& result, const Meshing_options& o)
 {
   using Status = CGAL::Mixed_mesh_status;
   if(o.fewest_vertices && result.status > Status::BUDGET_NOT_FILLED && result.status != Status::STOPPED)
@@ -85,7 +85,7 @@ void require_all(const std::vector<Check>& checks, std::size_t self_intersection
                               : ""));
 }
 
-void require_volume(const Options& o, const Outcome& outcome)
+void require_volume(const Meshing_options& o, const Outcome& outcome)
 {
   if(o.fit() == Fit::NONE || outcome.is_stopped)
     return;
@@ -94,7 +94,7 @@ void require_volume(const Options& o, const Outcome& outcome)
     throw std::runtime_error(reason);
 }
 
-void add_warnings(const Options& o, Outcome& outcome)
+void add_warnings(const Meshing_options& o, Outcome& outcome)
 {
   std::vector<std::string>& warnings = outcome.warnings;
   const Fidelity& f = outcome.fidelity;

@@ -8,7 +8,7 @@
 #ifndef MIXED_MESH_3_APPS_MIXED_MESH_3_VERDICT_H
 #define MIXED_MESH_3_APPS_MIXED_MESH_3_VERDICT_H
 
-#include "mixed_mesh_3/options.h"
+#include "mixed_mesh_3/meshing_options.h"
 #include "mixed_mesh_3/outcome.h"
 
 #include <cstddef>
@@ -22,16 +22,16 @@ struct Invalid_mesh : std::runtime_error
 };
 
 /// Throws if there is no mesh.
-void refuse(const CGAL::Mixed_mesh_result_3& result, const Options& options);
+void refuse(const CGAL::Mixed_mesh_result_3& result, const Meshing_options& options);
 
 /// \param self_intersections number of pairs of faces of the boundary; 0 if these were not searched for
 /// \throw Invalid_mesh if a check does not hold
 void require_all(const std::vector<Check>& checks, std::size_t self_intersections);
 
 /// Throws if a fitted mesh does not represent the surface: with less than half its volume, or half more.
-void require_volume(const Options& options, const Outcome& outcome);
+void require_volume(const Meshing_options& options, const Outcome& outcome);
 
 /// Adds warnings on a valid mesh for the user.
-void add_warnings(const Options& options, Outcome& outcome);
+void add_warnings(const Meshing_options& options, Outcome& outcome);
 
 #endif // MIXED_MESH_3_APPS_MIXED_MESH_3_VERDICT_H
