@@ -278,25 +278,42 @@ void test_return()
   BOOST_TEST(is_valid(s, start.mesh));
 }
 
-// Two bodies: faces of one that are inside the other go back.
+// Two cubes of n^3 cells, 0.1 apart, with their surface.
+struct Two_cubes
+{
+  Body body;
+  Mesh mesh;
+  std::size_t number_of_first; // vertices of the first cube
+
+  explicit Two_cubes(int n)
+    : body(surface()), mesh(grid(n, TETRAHEDRON)), number_of_first(mesh.number_of_vertices())
+  {
+    const Mesh other = mesh;
+    for(const auto& p : other.points())
+      mesh.add_vertex(p + Test_kernel::Vector_3(1.1, 0, 0));
+    for(Element_index e = 0; e < other.number_of_elements(); ++e) {
+      std::vector<Vertex_index> vertices;
+      for(Vertex_index v : other.element(e))
+        vertices.push_back(v + Vertex_index(other.number_of_vertices()));
+      mesh.add_element(TETRAHEDRON, vertices);
+    }
+  }
+
+  static Test_surface surface()
+  {
+    Test_surface both = cube();
+    add_box(both, Test_point(1.1, 0, 0), Test_point(2.1, 1, 1));
+    return both;
+  }
+};
+
+// Faces of one body that are inside the other go back.
 void test_retreat()
 {
-  Test_surface surface = cube();
-  add_box(surface, Test_point(1.1, 0, 0), Test_point(2.1, 1, 1));
-  const Body body(surface);
-  Mesh mesh = grid(3, TETRAHEDRON);
-  const Mesh other = mesh;
-  for(const auto& p : other.points())
-    mesh.add_vertex(p + Test_kernel::Vector_3(1.1, 0, 0));
-  for(Element_index e = 0; e < other.number_of_elements(); ++e) {
-    std::vector<Vertex_index> vertices;
-    for(Vertex_index v : other.element(e))
-      vertices.push_back(v + Vertex_index(other.number_of_vertices()));
-    mesh.add_element(TETRAHEDRON, vertices);
-  }
-  Start start(mesh, body, Criteria());
+  const Two_cubes two(3);
+  Start start(two.mesh, two.body, Criteria());
   State& s = start.state;
-  for(Vertex_index v = 0; v < other.number_of_vertices(); ++v)
+  for(Vertex_index v = 0; v < two.number_of_first; ++v)
     if(s.mesh.points[v][0] == 1 && std::abs(s.mesh.points[v][1] - 0.5) < 0.2)
       s.mesh.points[v][0] += 0.2;
   s.moves.forget_costs();
@@ -305,6 +322,58 @@ void test_retreat()
   BOOST_TEST(retreat_from_self_intersections(s).empty());
   BOOST_TEST(s.result.is_boundary_simple);
   BOOST_TEST(!cuts_itself(s.mesh.changed(start.mesh)));
+  BOOST_TEST(find_defects(s.mesh.changed(start.mesh)).none());
+}
+
+// Vertices of faces that cut others go back with the neighbors that are in their way, and these are underway
+// again; others stay where they came to.
+void test_going_back()
+{
+  const Two_cubes two(8);
+  Start start(two.mesh, two.body, Criteria());
+  State& s = start.state;
+  const auto is_moved = [](const Vec3& p) { // a block of the first cube, at the second one, and another face
+    return (p[0] >= 0.75 && p[0] <= 1 && std::abs(p[1] - 0.5) < 0.3 && std::abs(p[2] - 0.5) < 0.3)
+           || p[0] == 0;
+  };
+  std::vector<Vertex_index> moved;
+  for(Vertex_index v = 0; v < s.mesh.points.size(); ++v)
+    s.result.number_of_boundary_vertices += s.mesh.is_on_boundary(v);
+  for(Vertex_index v = 0; v < two.number_of_first; ++v)
+    if(is_moved(s.saved_points[v])) {
+      s.mesh.points[v][0] += s.saved_points[v][0] == 0 ? -0.05 : 0.13;
+      moved.push_back(v);
+      if(s.mesh.is_on_boundary(v)) {
+        s.is_arrived[v] = 1;
+        ++s.result.number_of_arrived_vertices;
+      }
+    }
+  s.moves.forget_costs();
+  BOOST_TEST(find_defects(s.mesh.changed(start.mesh)).none());
+  BOOST_TEST(!s.crossing_vertices().empty());
+  const std::vector<Vec3> before = s.mesh.points;
+  BOOST_TEST(go_back_until_simple(s).empty());
+  BOOST_TEST(!cuts_itself(s.mesh.changed(start.mesh)));
+  BOOST_TEST(is_valid(s, start.mesh));
+  std::size_t number_back = 0, number_arrived = 0;
+  for(Vertex_index v : moved) {
+    const bool is_back = s.mesh.points[v] == s.saved_points[v];
+    BOOST_TEST(is_back || s.mesh.points[v] == before[v]);
+    BOOST_TEST(!(is_back && s.saved_points[v][0] == 0));
+    BOOST_TEST_EQ(s.is_arrived[v] != 0, s.mesh.is_on_boundary(v) && !is_back);
+    number_back += is_back;
+    number_arrived += s.is_arrived[v];
+  }
+  BOOST_TEST(number_back > 0 && number_arrived > 0);
+  for(const auto& [v, target] : s.underway)
+    BOOST_TEST(target == before[v] && !s.is_arrived[v]);
+  // All of them go back where neighbors are no neighbors of what is wrong.
+  BOOST_TEST(go_back(s, moved));
+  BOOST_TEST(s.mesh.points == s.saved_points);
+  BOOST_TEST_EQ(s.result.number_of_arrived_vertices, 0u);
+  // None where elements would be inverted.
+  s.saved_points[moved.front()][0] += 1;
+  BOOST_TEST(!go_back(s, moved));
   BOOST_TEST(find_defects(s.mesh.changed(start.mesh)).none());
 }
 
@@ -675,6 +744,7 @@ int run(int, char*[])
   test_arrival();
   test_return();
   test_retreat();
+  test_going_back();
   test_improvement();
   test_mending();
   test_merges();

@@ -204,18 +204,24 @@ struct Fitting_state
       target = project(mesh.points[v], target, mesh.strata[v]);
   }
 
+  /// Lets a vertex that is at its target move along the surface.
+  /// \return whether it is on the surface
+  bool note_arrival(Vertex_index v)
+  {
+    if(!project.is_reached(mesh.points[v], mesh.strata[v]))
+      return false;
+    moves.release(v);
+    is_arrived[v] = 1;
+    ++result.number_of_arrived_vertices;
+    return true;
+  }
+
   /// Moves a vertex to its target, or a part of the way.
   /// \return whether the vertex has arrived
   bool move_to(Vertex_index v, const Vec3& target, double acceptable)
   {
-    if(moves.try_move(v, target, acceptable)) {
-      if(!project.is_reached(target, mesh.strata[v]))
-        return false;
-      moves.release(v);
-      is_arrived[v] = 1;
-      ++result.number_of_arrived_vertices;
-      return true;
-    }
+    if(moves.try_move(v, target, acceptable))
+      return note_arrival(v);
     const Vec3 p = mesh.points[v];
     for(double share : {0.5, 0.25, 0.1})
       if(moves.try_move(v, p + share * (target - p), acceptable))
@@ -267,11 +273,16 @@ struct Fitting_state
   std::size_t save_points_if_simple()
   {
     const std::size_t crossing = crossing_vertices().size();
-    if(crossing == 0) {
-      saved_points = mesh.points;
-      saved_is_arrived = is_arrived;
-    }
+    if(crossing == 0)
+      save_points();
     return crossing;
+  }
+
+  /// Saves all positions. \pre no faces cut each other
+  void save_points()
+  {
+    saved_points = mesh.points;
+    saved_is_arrived = is_arrived;
   }
 
   /// Positions, and the progress that was achieved with them.

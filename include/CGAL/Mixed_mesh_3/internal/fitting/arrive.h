@@ -14,6 +14,7 @@
 
 #include <CGAL/Mixed_mesh_3/internal/fitting/Fitting_state.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/follow_sharp_edges.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/retreat.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/split_flat_elements.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/surface_targets.h>
 
@@ -41,21 +42,9 @@ void set_targets(Fitting_state<Quality>& s)
     const Vec3& p = s.mesh.points[v];
     const Vec3 q = s.project(p, targets.positions[i], s.mesh.strata[v]);
     const bool is_there = norm(q - p) <= 1e-14 * (norm(p) + norm(targets.positions[i] - p));
-    s.underway.emplace_back(v, is_there ? p : targets.positions[i]);
+    if(!(is_there && s.note_arrival(v)))
+      s.underway.emplace_back(v, is_there ? p : targets.positions[i]);
   }
-}
-
-/// Makes vertices held: they stay where they are, and are no longer underway.
-template <class Quality>
-void hold_vertices(Fitting_state<Quality>& s, const std::vector<Vertex_index>& vertices)
-{
-  for(Vertex_index v : vertices)
-    s.moves.fix(v);
-  s.underway.erase(std::remove_if(s.underway.begin(), s.underway.end(),
-                                  [&](const auto& u) {
-                                    return std::binary_search(vertices.begin(), vertices.end(), u.first);
-                                  }),
-                   s.underway.end());
 }
 
 /// Moves each boundary vertex to its target, all the way or a part of the way, as far as validity and quality
@@ -84,11 +73,15 @@ bool arrive(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
   set_targets(s);
   if(!s.mode.keeps_sharp_edges)
     split_flat_elements(s);
-  // Small steps are checked: vertices whose faces would cut others are held. There is no check without a
-  // bound: where elements may get that bad, too many vertices would be held.
+  // Small steps are checked: vertices whose faces would cut others go back, and are held. There is no check
+  // without a bound: where elements may get that bad, too many vertices would be held.
   const bool is_careful = s.mode.is_without_attraction && s.has_bound() && s.crossing_vertices().empty();
-  using Snapshot = typename Fitting_state<Quality>::Snapshot;
-  Snapshot simple = is_careful ? s.snapshot() : Snapshot();
+  if(is_careful)
+    s.save_points();
+  const auto undo_crossing = [&] {
+    if(is_careful && go_back_until_simple(s).empty())
+      s.save_points();
+  };
   const double largest_acceptable = s.mode.leaves_rest ? s.final_bound() : largest_acceptable_cost;
   double acceptable = (std::min)(initial_acceptable_cost, largest_acceptable);
   int rounds_without_arrival = 0;
@@ -104,18 +97,13 @@ bool arrive(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
         break;
       has_flipped = true;
       rounds_without_arrival = 0;
+      undo_crossing(); // so that elements are valid at saved places after flips, too
       typename Fitting_state<Quality>::Flipper flipper(s.mesh, s.quality, s.intermediate_bound());
       s.result.number_of_flips += s.flip(flipper, power_of_flips, least_cost_to_flip_in_vain);
     }
     s.moves.run(4, s.effort.good_enough_to_arrive, s.effort.sweeps_to_arrive);
-    if(is_careful && (round % rounds_until_check == rounds_until_check - 1 || s.underway.empty())) {
-      const std::vector<Vertex_index> crossing = s.crossing_vertices();
-      if(!crossing.empty()) {
-        s.restore(simple);
-        hold_vertices(s, crossing);
-      }
-      simple = s.snapshot();
-    }
+    if(round % rounds_until_check == rounds_until_check - 1 || s.underway.empty())
+      undo_crossing();
     if(s.features && s.criteria.flips() && !s.mode.leaves_rest && round >= rounds_until_flips
        && round % rounds_to_flip == rounds_to_flip - 1 && !s.underway.empty()) {
       typename Fitting_state<Quality>::Flipper flipper(s.mesh, s.quality, s.intermediate_bound());
@@ -128,6 +116,7 @@ bool arrive(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
        && (round - rounds_for_features) % 3 == 0)
       give_up_features(s, round > rounds_for_features);
   }
+  undo_crossing();
   return true;
 }
 

@@ -269,7 +269,7 @@ inline std::size_t fill_octree_to_cut(Meshing_state& s)
   const Stage_scope scope(s.visitor, Stage::OCTREE);
   const std::size_t budget = s.criteria.maximal_number_of_vertices();
   const double n = double(budget);
-  std::size_t number_kept = 0;
+  std::size_t number_kept = 0, number_at_edges = 0;
   Located_octree octree = s.root;
   if(!refine_to_level(octree, s.coarsest_level(), s.budget()))
     return 0;
@@ -280,6 +280,13 @@ inline std::size_t fill_octree_to_cut(Meshing_state& s)
           && sequence.extend()) {
     }
     octree = sequence.octree(sequence.number_of_steps());
+    // Cells at sharp edges are not taken from those for walls. Without them, rotors and pipes of 2,000
+    // vertices keep 0.6 of their sharp edges, open shells none, instead of 0.99.
+    const std::size_t number = octree.number_of_cells();
+    split_cells_at_narrow_edges(octree, s.criteria,
+                                std::cbrt(s.volume() / double(number_of_fine_vertices(budget))),
+                                most_cells_for_narrow_places * budget);
+    number_at_edges = octree.number_of_cells() - number;
   } else {
     refine_in_region(s, octree,
                      n - (std::min)(share_inserted * n - times_root * std::sqrt(n), most_inserted));
@@ -294,7 +301,7 @@ inline std::size_t fill_octree_to_cut(Meshing_state& s)
   if(s.has_several_subdomains())
     split_layer_cells(octree, most_cells_for_layers * budget);
   else if(s.root.is_region_everywhere())
-    split_layer_cells(octree, most_cells_for_walls * budget);
+    split_layer_cells(octree, most_cells_for_walls * budget + number_at_edges);
   s.octree = std::move(octree);
   return number_kept;
 }
