@@ -99,7 +99,8 @@ def deck(mesh, nu, step):
 
 
 def displacements_of_ccx(work, mesh, nu, is_prescribed, given):
-    boundary = "".join(f"{v + 1}, {k + 1}, {k + 1}, {given[v, k]!r}\n"
+    # CalculiX reads 20 characters of a number
+    boundary = "".join(f"{v + 1}, {k + 1}, {k + 1}, {given[v, k]:.13e}\n"
                        for v in np.flatnonzero(is_prescribed) for k in range(3))
     step = ("*STEP\n*STATIC, SOLVER=SPOOLES\n*BOUNDARY\n" + boundary + "*NODE PRINT, NSET=ALL\nU\n")
     run_ccx(work, "static", deck(mesh, nu, step).replace("{last}", str(len(given))))

@@ -323,7 +323,7 @@ class Test(unittest.TestCase):
             [ball.connectivity[a:b] for a, b, is_in in zip(ball.offsets, ball.offsets[1:], ball.in_region) if is_in]))],
             axis=1)
         self.assertLess(in_ball.min(), 20)
-        self.assertLess(in_ball.max(), 46)
+        self.assertLess(in_ball.max(), 20 + 35)  # elements at the ball reach out of it by an edge
         for region, text in ((((0, 0, 0), -1), "radius"), (((0, 0), 1), "three coordinates")):
             with self.assertRaisesRegex(ValueError, text):
                 mm3.mesh(*CUBE, region=region)
