@@ -76,7 +76,7 @@ template <class Quality>
 std::vector<Arc> arcs_kept(const Fitting_state<Quality>& s, const Working_mesh::Edge& edge,
                            const Feature_polyline& polyline)
 {
-  constexpr int samples = 16;          // so lengths of arcs are multiples of 1/16
+  constexpr int samples = 16;
   constexpr double near_enough = 0.05; // in lengths of the edge: 16 edges for a circle
   const Vec3 &p = s.mesh.points[edge.first], along = s.mesh.points[edge.second] - p;
   const auto arc_length = [&](Vertex_index v) {

@@ -200,7 +200,7 @@ struct Meshing_state
   /// flat elements that octrees do not have.
   std::size_t number_off_tolerated() const
   {
-    constexpr double tolerated_at_junctions = 0.05; // more than these 3 %
+    constexpr double tolerated_at_junctions = 0.05;
     return std::size_t((has_several_subdomains() ? tolerated_at_junctions : share_not_arrived_tolerated)
                        * double(result.optimization.number_of_boundary_vertices));
   }

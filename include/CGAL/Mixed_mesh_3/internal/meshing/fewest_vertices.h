@@ -43,7 +43,7 @@ inline bool meets_all_criteria(const Mixed_mesh_result_3& r)
 /// criteria; a brain needs about that quarter.
 inline std::size_t first_budget(const Located_octree& root, const Mixed_mesh_criteria_3& criteria)
 {
-  constexpr double share = 0.25; // that quarter
+  constexpr double share = 0.25;
   const double edge = criteria.tolerance() / share_of_edge_tolerated;
   const double n = share * volume_of_domain(root) / (edge * edge * edge);
   return std::size_t(std::clamp(n, double(least_budget), double(criteria.maximal_number_of_vertices())));
@@ -61,7 +61,7 @@ inline Mixed_mesh_result_3 run_with_fewest_vertices(const Located_octree& root,
                                                     const Meshing_criteria& criteria, Any_visitor& visitor,
                                                     Core_mesh& mesh)
 {
-  constexpr double step = 2, near_enough = 1.1; // a tenth, which three budgets between n and 2 n lead to
+  constexpr double step = 2, near_enough = 1.1;
   const std::size_t most = criteria.maximal_number_of_vertices();
   std::size_t sufficient_budget = 0, insufficient_budget = 0, trials = 0; // 0: not known
   std::size_t budget = first_budget(root, criteria);
