@@ -285,7 +285,8 @@ Surface Label_image::surface_of(const Voxel_selection& selection, const Label_su
 
 std::vector<Surface> Label_image::surfaces_of(const std::vector<Voxel_selection>& selections,
                                               const Label_surface_options& options,
-                                              std::vector<Surface_facts>& facts) const
+                                              std::vector<Surface_facts>& facts,
+                                              std::vector<mm3::Label_change_3>& changes) const
 {
   std::map<float, std::size_t> number_of_value; // of the selection
   std::vector<mm3::Label_extent_3> extents(selections.size());
@@ -305,7 +306,7 @@ std::vector<Surface> Label_image::surfaces_of(const std::vector<Voxel_selection>
       return found != number_of_value.end() && found->second == i;
     });
   std::vector<Surface> surfaces = mm3::make_label_surfaces<Surface, CGAL::Parallel_if_available_tag>(
-    m_data->image, has_label, extents, smoothing(options), options.vertices);
+    m_data->image, has_label, extents, smoothing(options), options.vertices, &changes);
   for(Surface& surface : surfaces)
     facts.push_back(facts_of(surface, m_path));
   return surfaces;
@@ -349,7 +350,8 @@ Surface Label_image::surface_of(const Voxel_selection&, const Label_surface_opti
 }
 
 std::vector<Surface> Label_image::surfaces_of(const std::vector<Voxel_selection>&,
-                                              const Label_surface_options&, std::vector<Surface_facts>&) const
+                                              const Label_surface_options&, std::vector<Surface_facts>&,
+                                              std::vector<mm3::Label_change_3>&) const
 {
   return {};
 }

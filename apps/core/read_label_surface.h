@@ -11,6 +11,8 @@
 #include "core/read_surface.h"
 #include "core/voxel_selection.h"
 
+#include <CGAL/Mixed_mesh_image_3/Label_change_3.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -85,10 +87,11 @@ public:
   /// The surface around all of several selections, then those of each, which have common triangles where
   /// selections touch. A voxel is of the first selection that has it. \return empty surfaces of selections
   /// that have no voxels
+  /// \param changes changes of topology between voxels and surfaces
   /// \throw std::runtime_error as above
   std::vector<Surface> surfaces_of(const std::vector<Voxel_selection>& selections,
-                                   const Label_surface_options& options,
-                                   std::vector<Surface_facts>& facts) const;
+                                   const Label_surface_options& options, std::vector<Surface_facts>& facts,
+                                   std::vector<CGAL::Mixed_meshes_3::Label_change_3>& changes) const;
 
 private:
   void check_box(const std::string& what, const std::string& option, double radius) const;

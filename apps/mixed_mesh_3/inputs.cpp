@@ -81,7 +81,8 @@ public:
 
   // The surface around several labels, then that of each.
   std::vector<Surface> labels(const Label_image& image, const std::vector<Voxel_selection>& labels,
-                              std::vector<Surface_facts>& facts) const
+                              std::vector<Surface_facts>& facts,
+                              std::vector<mm3::Label_change_3>& changes) const
   {
     if(m_options.surface_options.wrap_diameter > 0)
       throw std::runtime_error(m_options.surface
@@ -89,7 +90,7 @@ public:
                                  "which touch; see --close and --hull");
     // Interfaces have more triangles together than the boundary, and those of small labels have to be fine.
     constexpr double finer = 3;
-    return image.surfaces_of(labels, options(finer * number_of_vertices()), facts);
+    return image.surfaces_of(labels, options(finer * number_of_vertices()), facts, changes);
   }
 
   Subdomain operator()(const Subdomain_option& s, mm3::Subdomain_index index)
@@ -137,6 +138,75 @@ struct Labels
   mm3::Subdomain_index largest_index = 1; // also of labels that are lost
 };
 
+// A change in words, without the label.
+std::string words_for(const mm3::Label_change_3& c)
+{
+  using Kind = mm3::Label_change_kind;
+  const std::size_t before = c.number_before, after = c.number_after;
+  const auto bodies = [](std::size_t n) { return counted(n, "body", "bodies"); };
+  const auto cavities = [](std::size_t n) { return counted(n, "cavity", "cavities"); };
+  const auto become = [](std::size_t n) { return n == 1 ? " becomes " : " become "; };
+  const std::string near = " near " + place(c.point);
+  switch(c.kind) {
+  case Kind::BODIES_LOST:
+    return bodies(before) + " of its voxels" + (before == 1 ? " is" : " are") + " lost" + near;
+  case Kind::BODIES_PARTED:
+    return bodies(before) + " of its voxels" + become(before) + std::to_string(after)
+           + (before == 1 && after == 2 ? ": a bridge or a neck is lost" : ": bridges or necks are lost, one")
+           + near;
+  case Kind::BODIES_JOINED:
+    return bodies(before) + " of its voxels" + become(before) + std::to_string(after)
+           + (before == 2 ? ": they are joined" : ": they are joined, two of them") + near;
+  case Kind::BODIES_ADDED:
+    return bodies(after) + (after == 1 ? " is" : " are") + " added where it has no voxels," + near;
+  case Kind::CAVITIES_LOST: return cavities(before) + (before == 1 ? " is" : " are") + " filled" + near;
+  case Kind::CAVITIES_PARTED:
+    return cavities(after - before) + (after - before == 1 ? " is" : " are")
+           + " cut off from others, or from the outside," + near;
+  case Kind::CAVITIES_JOINED:
+    return cavities(before - after) + (before - after == 1 ? " is" : " are")
+           + " open to others, or to the outside," + near;
+  case Kind::CAVITIES_ADDED: return cavities(after) + (after == 1 ? " is" : " are") + " added" + near;
+  case Kind::HANDLES_LOST:
+    return counted(before, "handle", "handles") + " of its voxels" + become(before) + std::to_string(after)
+           + ": holes are filled, or rings cut, perhaps" + near;
+  case Kind::HANDLES_ADDED:
+    return counted(before, "handle", "handles") + " of its voxels" + become(before) + std::to_string(after)
+           + ": there are new holes, or rings, perhaps" + near;
+  }
+  return {};
+}
+
+// Tells the changes of topology by smoothing. A label of which nothing is left is told already. Changes of
+// all labels together are told if they are more than those of each label.
+void tell(const std::vector<mm3::Label_change_3>& changes, const std::vector<Label_group>& groups,
+          const std::vector<Surface>& surfaces, Outcome& outcome)
+{
+  const auto number = [](const mm3::Label_change_3& c) {
+    return (std::max)(c.number_before, c.number_after) - (std::min)(c.number_before, c.number_after);
+  };
+  const auto is_told_by_labels = [&](const mm3::Label_change_3& of_all) {
+    std::size_t sum = 0;
+    for(const mm3::Label_change_3& c : changes)
+      sum += c.label > 0 && c.kind == of_all.kind ? number(c) : 0;
+    return sum >= number(of_all);
+  };
+  for(const mm3::Label_change_3& c : changes)
+    if(c.label == 0 ? !is_told_by_labels(c) : !surfaces[c.label].is_empty())
+      outcome.changes_by_smoothing.push_back(
+        {"smoothing changes "
+           + (c.label == 0 ? "the whole domain" : "the subdomain " + groups[c.label - 1].name) + ": "
+           + words_for(c),
+         c.point});
+  constexpr std::size_t most = 8;
+  const std::size_t n = outcome.changes_by_smoothing.size(), shown = (std::min)(n, most);
+  for(std::size_t i = 0; i < shown; ++i)
+    outcome.warnings.push_back(outcome.changes_by_smoothing[i].sentence + ", see --smoothing");
+  if(n > shown)
+    outcome.warnings.push_back("smoothing makes " + counted(n - shown, "change", "changes")
+                               + " more in the topology of labels, see the report");
+}
+
 // Reads the surfaces of labels. What completion adds to them is of the one with most voxels; then they get
 // layers. Labels of which smoothing leaves nothing are lost.
 Labels read_labels(const Input_options& o, Surface_reader& read, Outcome& outcome)
@@ -164,7 +234,9 @@ Labels read_labels(const Input_options& o, Surface_reader& read, Outcome& outcom
   };
   Labels labels;
   std::vector<Surface_facts> facts;
-  std::vector<Surface> surfaces = read.labels(image, all, facts);
+  std::vector<mm3::Label_change_3> changes;
+  std::vector<Surface> surfaces = read.labels(image, all, facts, changes);
+  tell(changes, groups, surfaces, outcome);
   for(std::size_t i = 0; i < all.size(); ++i) {
     const auto& [name, voxels, index] = groups[i];
     labels.largest_index = (std::max)(labels.largest_index, index);

@@ -126,6 +126,7 @@ struct Outcome
   std::string voxels;                         // voxels of an image that are the domain, in words
   std::optional<Completion_facts> completion; // completion of the image's label
   std::vector<Layer_outcome> layers;
+  std::vector<Difference> changes_by_smoothing; // of the labels of an image
   std::vector<Surface_facts> regions;
   std::vector<Subdomain_outcome> subdomains; // empty for a single subdomain
   std::vector<Interface_outcome> interfaces;

@@ -175,16 +175,21 @@ Json describe(const Solid& s)
   return {{"bodies", s.bodies}, {"handles", s.handles}, {"cavities", s.cavities}, {"volume", s.volume}};
 }
 
+Json describe(const std::vector<Difference>& differences)
+{
+  Json result = Json::array();
+  for(const Difference& d : differences)
+    result.push_back({{"text", d.sentence}, {"at", d.at}});
+  return result;
+}
+
 Json describe(const Topology& t)
 {
-  Json differences = Json::array();
-  for(const Difference& d : t.differences)
-    differences.push_back({{"text", d.sentence}, {"at", d.at}});
   return {{"surface", describe(t.surface)},
           {"mesh", describe(t.mesh)},
           {"same topology", t.is_same},
           {"volumes may differ by, relatively", volume_tolerance},
-          {"differences", differences}};
+          {"differences", describe(t.differences)}};
 }
 
 Json describe(const CGAL::Mixed_mesh_optimization_result_3& r)
@@ -431,6 +436,8 @@ Json report(const Options& o, const Outcome& outcome, const Stage_log& log)
     report["inputs"]["surface"]["voxels"] = outcome.voxels;
   if(outcome.completion)
     report["inputs"]["surface"]["completion"] = describe(*outcome.completion);
+  if(!outcome.changes_by_smoothing.empty())
+    report["inputs"]["surface"]["changes by smoothing"] = describe(outcome.changes_by_smoothing);
   for(const Layer_outcome& layer : outcome.layers)
     report["inputs"]["surface"]["layers"].push_back(
       {{"name", layer.name},

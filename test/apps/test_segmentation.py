@@ -247,6 +247,25 @@ class Test_segmentation(unittest.TestCase):
         self.mesh(path, "--labels", f"head=1-9,lesion={LESION}", "--vertices", 3000, "--threads", 4)
         self.assertEqual(first, self.output.read_bytes())
 
+    def test_changes_by_smoothing(self):
+        """A bridge of a voxel is told as lost, with its place; a thick one is none."""
+        x, y, z = np.meshgrid(*(np.arange(n) for n in SIZE), indexing="ij")
+        for width in 1, 9:
+            values = np.where(np.hypot(np.hypot(x - 15, y - 20), z - 20) < 11, 1, 0)
+            values[np.hypot(np.hypot(x - 43, y - 20), z - 20) < 11] = 1
+            values[15:43, 20 - width // 2:21 + width // 2, 20 - width // 2:21 + width // 2] = 1
+            values[np.hypot(np.hypot(x - 15, y - 20), z - 20) < 6] = 2
+            path = self.image("bridge.nii", values.astype(np.int16), affine((2, 2, 2)))
+            told, run = self.mesh(path, "--labels", "a=1,b=2", "--vertices", 1500)
+            changes = told["inputs"]["surface"].get("changes by smoothing", [])
+            self.assertEqual(len(changes), 1 if width == 1 else 0)
+            self.assertEqual(run.stderr.count("smoothing changes"), len(changes))
+            for change in changes:
+                words = "smoothing changes the subdomain a: 1 body of its voxels becomes 2: a bridge or a neck is lost"
+                self.assertIn(words, change["text"])
+                self.assertIn(words, run.stderr)
+                self.assertLess(np.linalg.norm(np.subtract(change["at"], (20 + 2 * 29, -30 + 2 * 20, 40 + 2 * 20))), 3)
+
     def atlas(self):
         """Regions with gaps between them and nothing in the middle, open to one side, and a speck; and the whole."""
         whole = labels() != 0

@@ -12,10 +12,12 @@
 #define CGAL_MIXED_MESH_IMAGE_3_MAKE_LABEL_SURFACES_H
 
 #include <CGAL/Mixed_mesh_3/internal/base/Concurrency.h>
+#include <CGAL/Mixed_mesh_image_3/Label_change_3.h>
 #include <CGAL/Mixed_mesh_image_3/Voxel_image_3.h>
 #include <CGAL/Mixed_mesh_image_3/internal/Label_network.h>
 #include <CGAL/Mixed_mesh_image_3/internal/Label_scores.h>
 #include <CGAL/Mixed_mesh_image_3/internal/Network_collapses.h>
+#include <CGAL/Mixed_mesh_image_3/internal/find_label_changes.h>
 #include <CGAL/Mixed_mesh_image_3/label_extents.h>
 
 #include <CGAL/assertions.h>
@@ -62,6 +64,10 @@ them should have `Mixed_mesh_criteria_3::sharp_angle(0)`, as their sharp edges a
 the voxels. The largest spacing of voxels is a good choice
 \param number_of_vertices number of vertices of all surfaces together, approximately, each counted once; 0:
 the surfaces are not simplified
+\param changes if not null, the changes of topology between the voxels and the surfaces: bodies of a label
+that are lost, parted, joined or added, and handles; of all labels together, cavities as well. Where voxels of
+a label have only an edge or a corner in common, they may be connected or not: neither is a change. The
+changes of all labels together come first, then those of each
 \tparam ConcurrencyTag enables sequential versus parallel computation. The result does not depend on it.
         Possible values are `Sequential_tag`, `Parallel_tag`, and `Parallel_if_available_tag`
 \return the surface around all labels, then that of each label, in millimeters, outward oriented; an empty one
@@ -70,13 +76,14 @@ if nothing is left of a label
 
 \par Complexity
 Linear in the number of voxels of the boxes, times the width of the Gaussian in voxels; and O(n log n) for n
-voxels at interfaces
+voxels at interfaces. The changes are linear in the number of voxels of the boxes, and O(r log r) for r
+rows of voxels of a label
 */
 template <class Surface_mesh_, class ConcurrencyTag = Sequential_tag, class HasLabel>
-std::vector<Surface_mesh_> make_label_surfaces(const Voxel_image_3& image,
-                                               const std::vector<HasLabel>& has_label,
-                                               const std::vector<Label_extent_3>& extents, double smoothing,
-                                               std::size_t number_of_vertices = 0)
+std::vector<Surface_mesh_>
+make_label_surfaces(const Voxel_image_3& image, const std::vector<HasLabel>& has_label,
+                    const std::vector<Label_extent_3>& extents, double smoothing,
+                    std::size_t number_of_vertices = 0, std::vector<Label_change_3>* changes = nullptr)
 {
   CGAL_precondition(smoothing >= 0 && determinant(image.grid.index_to_world) != 0);
   CGAL_precondition(has_label.size() == extents.size());
@@ -86,10 +93,14 @@ std::vector<Surface_mesh_> make_label_surfaces(const Voxel_image_3& image,
   std::array<double, 3> deviations = voxel_spacing(image.grid);
   for(double& d : deviations)
     d = smoothing / d;
+  if(changes != nullptr)
+    changes->clear();
   internal::Label_scores scores(image, has_label, extents, deviations, threads);
   if(scores.is_empty())
     return surfaces;
   internal::Label_network network = internal::balanced_network(scores, extents, deviations);
+  if(changes != nullptr)
+    *changes = internal::find_label_changes(scores, has_label.size(), image.grid.index_to_world, threads);
   for(Vec3& p : network.points) {
     const std::array<double, 3> q = transform(image.grid.index_to_world, {p[0], p[1], p[2]});
     p = {q[0], q[1], q[2]};

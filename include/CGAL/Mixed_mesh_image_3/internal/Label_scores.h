@@ -89,6 +89,14 @@ public:
   bool is_empty() const { return size[0] == 0; }
 
   Label_number label(std::size_t offset_in_box) const { return m_labels[offset_in_box]; }
+  Label_number label_in_image(std::size_t offset_in_box) const { return m_in_image[offset_in_box]; }
+
+  /// The box outside of which no voxel has a label, neither in the image nor by its scores; empty if no voxel
+  /// of the image has it. \param label 0: all labels
+  const Voxel_box& box(Label_number label) const
+  {
+    return label == 0 ? static_cast<const Voxel_box&>(*this) : m_indicators[label - 1];
+  }
 
   /// How much better a label is in a voxel than another one.
   float lead(const std::array<std::size_t, 3>& voxel, Label_number label, Label_number other) const
