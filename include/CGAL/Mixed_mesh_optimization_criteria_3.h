@@ -45,8 +45,9 @@ public:
   /// The value set, or the default.
   double tolerance() const { return m_tolerance; }
 
-  /// Sets the number of rounds of moves and flips. Default: 4, or 12 with a tolerance; 3 with more than
-  /// 20,000 vertices; 2 with more than 100,000.
+  /// Sets the number of rounds of moves and flips. Default: 4, or 12 with a tolerance, whatever the number of
+  /// vertices: with 3 instead of 12, a brain of 22,000 vertices is half as far again from its surface, and a
+  /// ninth faster.
   /// \pre at least 1
   Mixed_mesh_optimization_criteria_3& number_of_rounds(int rounds)
   {
@@ -54,14 +55,10 @@ public:
     m_number_of_rounds = rounds;
     return *this;
   }
-  /// The number of rounds for a mesh of a number of vertices.
-  int number_of_rounds_for(std::size_t number_of_vertices) const
+  /// The value set, or the default.
+  int number_of_rounds() const
   {
-    return m_number_of_rounds > 0        ? m_number_of_rounds
-           : number_of_vertices > 100000 ? 2
-           : number_of_vertices > 20000  ? 3
-           : m_tolerance > 0             ? 12
-                                         : 4;
+    return m_number_of_rounds > 0 ? m_number_of_rounds : m_tolerance > 0 ? 12 : 4;
   }
 
   /// Sets the cost of an element above which boundary vertices slide on the surface: free sliding would lose

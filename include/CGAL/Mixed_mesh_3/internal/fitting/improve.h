@@ -44,7 +44,7 @@ bool improve(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
   const bool has_tolerance = s.criteria.tolerance() > 0 && !s.mode.is_without_attraction;
   const Criteria& criteria = s.criteria;
   const int rounds = (has_tolerance || s.features ? criteria : Criteria(criteria).tolerance(0))
-                       .number_of_rounds_for(s.mesh.points.size());
+                       .number_of_rounds();
   const int second_phase = int(share_of_first_phase * rounds + 0.5);
   // Many short rounds let boundary vertices follow the places that draw them.
   const bool has_many_rounds = rounds > 6;
