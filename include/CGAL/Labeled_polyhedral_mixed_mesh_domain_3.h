@@ -184,14 +184,18 @@ public:
     return index_of(part.background) != 0 ? ON_BOUNDED_SIDE : is_on_surface ? ON_BOUNDARY : ON_UNBOUNDED_SIDE;
   }
 
-  /// The subdomain of a point inside the domain. A point on an interface belongs to the later subdomain.
+  /// The subdomain of a point inside the domain; 0 for others. A point on an interface belongs to the later
+  /// subdomain.
   /// \param p point
   /// \param part part as for `bounded_side()`, or as `locate()` filled it for a cell in the interior
   Subdomain_index subdomain_index(const Point_3& p, const Surface_part& part) const
   {
-    for(const auto& [i, of_surface] : part.parts)
-      if(m_surfaces[i].surface->bounded_side(p, of_surface) == ON_BOUNDED_SIDE)
+    for(const auto& [i, of_surface] : part.parts) {
+      const Bounded_side side = m_surfaces[i].surface->bounded_side(p, of_surface);
+      const bool is_on_cavity = side == ON_BOUNDARY && m_surfaces[i].index == 0;
+      if(side == ON_BOUNDED_SIDE || is_on_cavity)
         return m_surfaces[i].index;
+    }
     return index_of(part.background);
   }
 

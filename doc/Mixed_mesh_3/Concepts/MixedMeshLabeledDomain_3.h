@@ -36,8 +36,8 @@ public:
   /// different.
   unspecified_type subdomain_indices() const;
 
-  /// The subdomain of a point for which `bounded_side()` answers `ON_BOUNDED_SIDE`. A point on an interface
-  /// belongs to the later subdomain.
+  /// The subdomain of a point for which `bounded_side()` answers `ON_BOUNDED_SIDE`, and 0 for others. A point
+  /// on an interface belongs to the later subdomain.
   /// \param p a point
   /// \param part the part of a cell that contains `p` and meets the domain
   CGAL::Mixed_meshes_3::Subdomain_index subdomain_index(const Point_3& p, const Surface_part& part) const;

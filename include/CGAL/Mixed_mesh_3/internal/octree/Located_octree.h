@@ -141,13 +141,22 @@ public:
   }
 
   /// The side of any point: the side of its leaf, or the answer to a query if the leaf meets the surface.
-  Bounded_side bounded_side(const Vec3& p) const { return bounded_side_in_leaf(p).first; }
+  Bounded_side bounded_side(const Vec3& p) const
+  {
+    const Node_index n = leaf_around(p);
+    return n == Octree::no_node       ? ON_UNBOUNDED_SIDE
+           : side(n) != ON_BOUNDARY ? side(n)
+                                      : domain().bounded_side(Point_3(p[0], p[1], p[2]), surface_part(n));
+  }
 
   /// The rank of the subdomain of any point; that of the outside where no subdomain is.
   Subdomain_rank subdomain_rank(const Vec3& p) const
   {
-    const auto [side, leaf] = bounded_side_in_leaf(p);
-    return side == ON_BOUNDED_SIDE ? subdomain_rank(Point_3(p[0], p[1], p[2]), leaf) : outside_rank;
+    if(!domain().is_labeled())
+      return bounded_side(p) == ON_BOUNDED_SIDE ? Subdomain_rank(0) : outside_rank;
+    const Node_index n = leaf_around(p);
+    return n != Octree::no_node && meets_domain(n) ? subdomain_rank(Point_3(p[0], p[1], p[2]), n)
+                                                   : outside_rank;
   }
 
   /// The sibling of eight with the nearest center: the cell around a point, whatever the frame of the cells.
@@ -244,16 +253,14 @@ public:
   }
 
 private:
-  // The side of any point, and its leaf where that is known to be near to the domain.
-  std::pair<Bounded_side, Node_index> bounded_side_in_leaf(const Vec3& p) const
+  // The leaf around any point; none outside the box of the domain.
+  Node_index leaf_around(const Vec3& p) const
   {
     const Bbox_3 box = domain().bbox();
     for(int k = 0; k < 3; ++k)
       if(!(box.min(k) <= p[k] && p[k] <= box.max(k)))
-        return {ON_UNBOUNDED_SIDE, Octree::no_node};
-    const Point_3 point(p[0], p[1], p[2]);
-    const Node_index n = leaf_at(point);
-    return {side(n) != ON_BOUNDARY ? side(n) : domain().bounded_side(point, surface_part(n)), n};
+        return Octree::no_node;
+    return leaf_at(Point_3(p[0], p[1], p[2]));
   }
 
   Subdomain_rank subdomain_rank(const Point_3& p, Node_index leaf) const

@@ -43,7 +43,7 @@ public:
   /// \param part part of a cell that contains `p`, or null
   virtual Bounded_side bounded_side(const Point_3& p, const Surface_part& part) const = 0;
   virtual Point_3 closest_point(const Point_3& p, const Surface_part& part) const = 0;
-  /// The subdomain of a point inside, with labels.
+  /// The subdomain of a point, with labels; 0 for a point that is not inside.
   virtual Subdomain_index subdomain_index(const Point_3& p, const Surface_part& part) const = 0;
 
   /// The number and genus of the shells of the surface; nothing if the domain does not tell.
