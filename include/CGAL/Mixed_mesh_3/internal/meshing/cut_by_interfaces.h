@@ -152,8 +152,10 @@ public:
     for(Vertex_index v = 0; v < lattice.vertices.size(); ++v)
       m_ranks.push_back(lattice.sides[v] == ON_BOUNDARY ? on_interface : lattice.subdomain(v));
     m_surfaces.resize(m_ranks.size());
-    m_shortest = shortest_edge();
-    m_is_clear = insert_hidden_vertices(known);
+    std::vector<Edge> near_surfaces =
+      edges([this](Vertex_index a, Vertex_index b) { return m_is_near[a] && m_is_near[b]; });
+    m_shortest = shortest(near_surfaces);
+    m_is_clear = insert_hidden_vertices(std::move(near_surfaces), known);
     if(m_is_clear)
       m_cuts = all_cuts(known);
   }
@@ -302,27 +304,31 @@ private:
   std::vector<Edge> edges(const Is_chosen& is_chosen) const
   {
     std::vector<Edge> all;
-    for(const Working_mesh::Element& t : m_mesh.elements)
-      for(std::size_t i = 0; i < 4 && !t.is_removed && t.kind == TETRAHEDRON; ++i)
-        for(std::size_t j = 0; j < i; ++j)
-          if(is_chosen(t.vertices[i], t.vertices[j]))
-            all.push_back(std::minmax(t.vertices[i], t.vertices[j]));
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
+    std::vector<Vertex_index> met_from(m_mesh.points.size(), no_vertex);
+    for(Vertex_index v = 0; v < m_mesh.points.size(); ++v) {
+      const auto first = std::ptrdiff_t(all.size());
+      for(Element_index e : m_mesh.incident[v])
+        if(m_mesh.elements[e].kind == TETRAHEDRON)
+          for(Vertex_index u : m_mesh.elements[e])
+            if(v < u && std::exchange(met_from[u], v) != v && is_chosen(v, u))
+              all.emplace_back(v, u);
+      std::sort(all.begin() + first, all.end());
+    }
     return all;
   }
 
-  std::vector<Edge> edges_near_surfaces() const
+  double shortest(const std::vector<Edge>& edges) const
   {
-    return edges([this](Vertex_index a, Vertex_index b) { return m_is_near[a] && m_is_near[b]; });
+    double least = infinity;
+    for(const auto& [a, b] : edges)
+      least = (std::min)(least, norm(m_mesh.points[b] - m_mesh.points[a]));
+    return least;
   }
 
-  double shortest_edge() const
+  bool is_edge(Vertex_index a, Vertex_index b) const
   {
-    double shortest = infinity;
-    for(const auto& [a, b] : edges_near_surfaces())
-      shortest = (std::min)(shortest, norm(m_mesh.points[b] - m_mesh.points[a]));
-    return shortest;
+    return std::any_of(m_mesh.incident[a].begin(), m_mesh.incident[a].end(),
+                       [&](Element_index e) { return m_mesh.elements[e].has(b); });
   }
 
   // The subdomain that an edge passes between those of its ends; the one with the longest part of it.
@@ -368,14 +374,13 @@ private:
   }
 
   // \return whether there are not too many: at most as many as the lattice has
-  bool insert_hidden_vertices(Known_edges& known)
+  bool insert_hidden_vertices(std::vector<Edge> queue, Known_edges& known)
   {
     constexpr double least_length = 0.5; // in edges of the octree: shorter ones are not bisected
-    std::vector<Edge> queue = edges_near_surfaces();
     for(std::size_t i = 0; i < queue.size(); ++i) {
       const auto [a, b] = queue[i];
       const Vec3 edge = m_mesh.points[b] - m_mesh.points[a];
-      if(norm(edge) < least_length * m_shortest || m_mesh.elements_at_edge(a, b).empty())
+      if(norm(edge) < least_length * m_shortest || !is_edge(a, b))
         continue;
       const auto [found, is_new] = known.hidden.try_emplace({m_mesh.points[a], m_mesh.points[b]});
       if(is_new)
