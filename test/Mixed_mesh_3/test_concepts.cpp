@@ -305,7 +305,10 @@ struct Refined_domain_archetype : Domain_archetype
 
   typedef CGAL::Tag_true Has_subdomains;
   std::array<mm3::Subdomain_index, 1> subdomain_indices() const { return {3}; }
-  mm3::Subdomain_index subdomain_index(const Point_3&, const Surface_part&) const { return 3; }
+  mm3::Subdomain_index subdomain_index(const Point_3& p, const Surface_part& part) const
+  {
+    return bounded_side(p, part) == CGAL::ON_BOUNDED_SIDE ? 3 : 0;
+  }
   Point_3 closest_point(const Point_3& p, mm3::Subdomain_index, mm3::Subdomain_index) const
   {
     return closest_point(p);

@@ -152,8 +152,8 @@ public:
     for(Vertex_index v = 0; v < lattice.vertices.size(); ++v)
       m_ranks.push_back(lattice.sides[v] == ON_BOUNDARY ? on_interface : lattice.subdomain(v));
     m_surfaces.resize(m_ranks.size());
-    std::vector<Edge> near_surfaces =
-      edges([this](Vertex_index a, Vertex_index b) { return m_is_near[a] && m_is_near[b]; });
+    std::vector<Edge> near_surfaces = edges(
+      [this](Vertex_index a, Vertex_index b) { return m_is_near[a] && m_is_near[b]; });
     m_shortest = shortest(near_surfaces);
     m_is_clear = insert_hidden_vertices(std::move(near_surfaces), known);
     if(m_is_clear)

@@ -144,9 +144,9 @@ public:
   Bounded_side bounded_side(const Vec3& p) const
   {
     const Node_index n = leaf_around(p);
-    return n == Octree::no_node       ? ON_UNBOUNDED_SIDE
+    return n == Octree::no_node     ? ON_UNBOUNDED_SIDE
            : side(n) != ON_BOUNDARY ? side(n)
-                                      : domain().bounded_side(Point_3(p[0], p[1], p[2]), surface_part(n));
+                                    : domain().bounded_side(Point_3(p[0], p[1], p[2]), surface_part(n));
   }
 
   /// The rank of the subdomain of any point; that of the outside where no subdomain is.
