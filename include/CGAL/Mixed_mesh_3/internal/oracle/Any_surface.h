@@ -122,8 +122,8 @@ public:
   {
     if constexpr(has_labels) {
       this->m_is_labeled = true;
-      this->m_subdomain_indices.assign(surface.subdomain_indices().begin(),
-                                       surface.subdomain_indices().end());
+      const auto& indices = surface.subdomain_indices(); // a reference, or a copy
+      this->m_subdomain_indices.assign(indices.begin(), indices.end());
     }
     if constexpr(has_sheets<Surface>())
       for(const auto& sheet : surface.sheets())
