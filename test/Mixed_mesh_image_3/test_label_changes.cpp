@@ -7,10 +7,9 @@
 // one voxel are told, thick ones are not; for random labels, what is told is what the surfaces enclose.
 
 #include "test_images.h"
+#include "test_labels.h"
 
-#include <CGAL/Mixed_mesh_image_3/label_extents.h>
 #include <CGAL/Mixed_mesh_image_3/make_label_surface.h>
-#include <CGAL/Mixed_mesh_image_3/make_label_surfaces.h>
 
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
@@ -50,16 +49,8 @@ struct Result
 
 Result surfaces_of(const Voxel_image_3& image, int n, double smoothing)
 {
-  const auto extent_of_values = label_extents(image);
-  std::vector<std::function<bool(float)>> has_label;
-  std::vector<Label_extent_3> extents;
-  for(int l = 1; l <= n; ++l) {
-    has_label.emplace_back([l](float value) { return value == float(l); });
-    const auto found = extent_of_values.find(float(l));
-    extents.push_back(found == extent_of_values.end() ? Label_extent_3() : found->second);
-  }
   Result result;
-  result.surfaces = make_label_surfaces<Surface>(image, has_label, extents, smoothing, 0, &result.changes);
+  result.surfaces = surfaces_of_labels<Surface>(image, n, smoothing, 0, &result.changes);
   return result;
 }
 

@@ -7,11 +7,10 @@
 // they are simplified, which keeps their topology; a layer of one voxel; volumes.
 
 #include "test_images.h"
+#include "test_labels.h"
 
 #include <CGAL/Labeled_polyhedral_mixed_mesh_domain_3.h>
 #include <CGAL/Mixed_mesh_3/internal/surface/self_intersections.h>
-#include <CGAL/Mixed_mesh_image_3/label_extents.h>
-#include <CGAL/Mixed_mesh_image_3/make_label_surfaces.h>
 
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
@@ -23,7 +22,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <map>
 #include <random>
 #include <set>
@@ -38,19 +36,10 @@ using Point_3 = Predicates_kernel::Point_3;
 using Surface = CGAL::Surface_mesh<Point_3>;
 using Voxel = std::array<double, 3>;
 
-// The surface around labels 1 to n, then that of each.
 std::vector<Surface> surfaces_of(const Voxel_image_3& image, int n, double smoothing,
                                  std::size_t vertices = 0)
 {
-  const auto extent_of_values = label_extents(image);
-  std::vector<std::function<bool(float)>> has_label;
-  std::vector<Label_extent_3> extents;
-  for(int l = 1; l <= n; ++l) {
-    has_label.emplace_back([l](float value) { return value == float(l); });
-    const auto found = extent_of_values.find(float(l));
-    extents.push_back(found == extent_of_values.end() ? Label_extent_3() : found->second);
-  }
-  return make_label_surfaces<Surface>(image, has_label, extents, smoothing, vertices);
+  return surfaces_of_labels<Surface>(image, n, smoothing, vertices);
 }
 
 bool is_manifold(const Surface& s)

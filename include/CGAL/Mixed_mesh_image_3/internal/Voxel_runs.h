@@ -8,13 +8,13 @@
 #ifndef CGAL_MIXED_MESH_IMAGE_3_INTERNAL_VOXEL_RUNS_H
 #define CGAL_MIXED_MESH_IMAGE_3_INTERNAL_VOXEL_RUNS_H
 
+#include <CGAL/Mixed_mesh_3/internal/base/Disjoint_sets.h>
 #include <CGAL/Mixed_mesh_image_3/internal/Voxel_box.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -67,30 +67,22 @@ public:
 
   const std::vector<Run>& runs() const { return m_runs; }
 
-  /// Calls `f(offset, run)` for each run, with the offset of its first voxel in the box.
+  /// Calls `f(offset, run)` for each voxel, with its offset in the box.
   template <class F>
-  void for_each(const F& f) const
+  void for_each_voxel(const F& f) const
   {
     for(std::size_t row = 0; row + 1 < m_first_of_row.size(); ++row)
       for(std::size_t r = m_first_of_row[row]; r < m_first_of_row[row + 1]; ++r)
-        f(row * m_size[0] + m_runs[r].begin, r);
+        for(std::size_t i = m_runs[r].begin; i < m_runs[r].end; ++i)
+          f(row * m_size[0] + i, r);
   }
 
   /// Finds the connected components, numbered in the order of their first runs.
   Components components(Voxel_connectivity connectivity) const
   {
     using Connectivity = Voxel_connectivity;
-    std::vector<std::uint32_t> parents(m_runs.size());
-    std::iota(parents.begin(), parents.end(), 0u);
-    const auto root = [&parents](std::uint32_t r) {
-      while(parents[r] != r)
-        r = parents[r] = parents[parents[r]];
-      return r;
-    };
-    const auto unite = [&](std::size_t r, std::size_t s) {
-      const std::uint32_t a = root(std::uint32_t(r)), b = root(std::uint32_t(s));
-      parents[(std::max)(a, b)] = (std::min)(a, b);
-    };
+    Disjoint_sets sets(m_runs.size());
+    const auto unite = [&sets](std::size_t r, std::size_t s) { sets.unite(r, s); };
     // Neighbors have indices larger by 0 or 1 along the first axis, or by -1 as well.
     const std::size_t ahead = connectivity == Connectivity::FACES ? 0 : 1,
                       behind = connectivity == Connectivity::CORNERS ? 1 : 0;
@@ -110,10 +102,8 @@ public:
         if(connectivity == Connectivity::CORNERS && j > 0)
           unite_with(row + m_size[1] - 1);
       }
-    Components result{std::vector<std::uint32_t>(m_runs.size()), 0};
-    for(std::uint32_t r = 0; r < m_runs.size(); ++r)
-      result.of_run[r] = parents[r] == r ? result.number++ : result.of_run[root(r)];
-    return result;
+    const auto [numbers, number] = sets.numbered();
+    return {{numbers.begin(), numbers.end()}, std::uint32_t(number)};
   }
 
   /// Calls `f(r, s)` for runs of both that have a voxel in common. \pre the boxes are the same

@@ -214,10 +214,9 @@ private:
         sizes[components.of_run[r]] += runs.runs()[r].end - runs.runs()[r].begin;
     const auto largest = std::size_t(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
     const auto for_each_voxel = [&](const auto& f) {
-      runs.for_each([&](std::size_t v, std::size_t r) {
+      runs.for_each_voxel([&](std::size_t v, std::size_t r) {
         if(components.of_run[r] == largest)
-          for(std::size_t i = 0; i < runs.runs()[r].end - runs.runs()[r].begin; ++i)
-            f(position(v + i));
+          f(position(v));
       });
     };
     std::array<double, 3> sum{}, best{};
@@ -243,16 +242,10 @@ private:
                                 const Components& components, Voxel_connectivity connectivity) const
   {
     constexpr std::uint32_t none = std::uint32_t(-1), no_component = std::uint32_t(-2);
-    const auto for_each_voxel = [](const Voxel_runs& all, const auto& f) {
-      all.for_each([&](std::size_t v, std::size_t r) {
-        for(std::size_t i = 0; i < all.runs()[r].end - all.runs()[r].begin; ++i)
-          f(v + i, r);
-      });
-    };
     std::vector<std::uint32_t> numbers(m_before.size(), none);
-    for_each_voxel(others, [&](std::size_t v, std::size_t) { numbers[v] = no_component; });
+    others.for_each_voxel([&](std::size_t v, std::size_t) { numbers[v] = no_component; });
     std::vector<std::size_t> found;
-    for_each_voxel(runs, [&](std::size_t v, std::size_t r) {
+    runs.for_each_voxel([&](std::size_t v, std::size_t r) {
       if(numbers[v] == none)
         return;
       numbers[v] = components.of_run[r];
