@@ -142,7 +142,8 @@ void hold_vertices_without_surface(const Working_mesh& mesh, const Interface_fac
 Removes vertices of a mesh whose boundary, and whose interfaces, are on their surfaces, until it has a given
 number.
 
-That sharp edges of the mesh stay near to curved ones is given up first, then the concessions are made.
+With sharp edges, bounds of up to twice the quality bound are conceded first, then that these edges of the
+mesh stay near to those of the surface; then the other concessions are made.
 
 \param followed sharp features that the mesh follows, which the result follows as well
 \param number_of_vertices 0: as few as the limits allow
@@ -162,6 +163,10 @@ bool simplify(Core_mesh& mesh, Followed_features& followed, const Any_surface& s
   // Bounds that are tried, one after the other, so that elements are no flatter than needed. A step of 2.5
   // makes no difference to seven meshes of 2,000 vertices.
   constexpr double step_of_bound = 1.25;
+  // Multiple of the bound before sharp edges are given up. If they are given up first, eight of 38 CAD
+  // surfaces of 2,000 vertices keep less of them, a coupling, a turbine and a gear by 14, 5 and 4 %, and two
+  // keep more, by 3 % and less; a multiple of 1.25 keeps 2 and 4 % less of two.
+  constexpr double largest_multiple_for_curves = 2;
   // Vertices of the start by those of the end, about, where the limits decide: of a ball of 3,000 vertices, a
   // hundredth of its diameter leaves 330. The result depends on it for shells of different sizes only.
   constexpr std::size_t expected_ratio = 10;
@@ -194,7 +199,15 @@ bool simplify(Core_mesh& mesh, Followed_features& followed, const Any_surface& s
     if(n > number_of_vertices && go_on())
       n -= simplifier(quality_bound, d, follows_curves, n - number_of_vertices, go_on);
   };
+  const auto raise_bound = [&](double largest, bool follows_curves) {
+    while(n > number_of_vertices && quality_bound < largest && go_on()) {
+      quality_bound = (std::min)(step_of_bound * quality_bound, largest);
+      remove(distance, follows_curves);
+    }
+  };
   remove(distance, true);
+  if(!followed.features.polylines().empty())
+    raise_bound((std::min)(largest_multiple_for_curves * quality_bound, concessions.quality_bound), true);
   remove(distance, false);
   if(has_region && concessions.region) {
     simplifier.give_up_region();
@@ -202,10 +215,7 @@ bool simplify(Core_mesh& mesh, Followed_features& followed, const Any_surface& s
   }
   if(concessions.distance > distance)
     remove(distance = concessions.distance, false);
-  while(n > number_of_vertices && quality_bound < concessions.quality_bound && go_on()) {
-    quality_bound = (std::min)(step_of_bound * quality_bound, concessions.quality_bound);
-    remove(distance, false);
-  }
+  raise_bound(concessions.quality_bound, false);
   if(concessions.any_distance)
     remove(std::numeric_limits<double>::infinity(), false);
   followed.strata = working.sharp_strata();
