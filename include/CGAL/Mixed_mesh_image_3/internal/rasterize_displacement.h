@@ -164,7 +164,8 @@ inline Vec3 transform_vector(const Affine_map_3& map, const Vec3& v)
 inline Voxel_range voxel_range(const Voxel_grid_3& grid, Element_kind kind, const Vec3* points,
                                const Vec3& extent = Vec3{})
 {
-  constexpr double margin = 1e-7; // more than the tolerance of points inside
+  // Points are inside up to 1e-9 times the element (`reference_tolerance`): 1e-7 voxels if it is 100 wide.
+  constexpr double margin = 1e-7;
   Vec3 lower = points[0], upper = points[0];
   for(int i = 1; i < reference_elements[kind].number_of_vertices; ++i)
     for(int k = 0; k < 3; ++k) {

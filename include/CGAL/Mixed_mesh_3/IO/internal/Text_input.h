@@ -38,6 +38,7 @@ constexpr std::uint64_t largest_mesh_size = 0xfffffffe;
 /// A part of a file for a message: short, and on one line.
 inline std::string in_quotes(std::string_view text)
 {
+  // The length shows every number whole: a double has up to 24 characters, as in -2.2250738585072014e-308.
   constexpr std::size_t longest = 32;
   std::string result = "\"";
   for(char c : text.substr(0, longest))

@@ -214,7 +214,8 @@ class Encoded_bytes
   }
 
 public:
-  // The largest compression of deflate.
+  // The largest compression of deflate (RFC 1951): a match has up to 258 bytes, and takes two bits at least,
+  // one for its length and one for its distance; 258 * 8 / 2 = 1032.
   static constexpr std::size_t largest_compression = 1032;
 
   Encoded_bytes(std::string_view text, bool is_base64) : m_text(text), m_is_base64(is_base64) {}

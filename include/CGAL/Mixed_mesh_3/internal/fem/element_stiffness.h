@@ -40,6 +40,7 @@ enum class Dilatation { POINTWISE, MEAN, PATCH };
 /// a pointwise share, the elements of a patch could change their volumes against each other too easily.
 inline double pointwise_share(const Elastic_material& material)
 {
+  // A bulk modulus of 2 mu is that of a Poisson's ratio of 2/7 = 0.29: the pointwise part is as compressible.
   constexpr double largest_multiple_of_mu = 2;
   return (std::min)(1., largest_multiple_of_mu * material.mu() / material.bulk_modulus());
 }

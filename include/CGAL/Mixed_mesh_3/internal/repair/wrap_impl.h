@@ -28,7 +28,7 @@ CGAL_MIXED_MESH_3_INLINE void wrap(double diameter, std::vector<Predicates_kerne
                                    std::vector<std::array<std::size_t, 3>>& triangles)
 {
   // A larger offset makes the solid larger; a smaller one increases the number of triangles.
-  constexpr double offset = 1. / 60; // CGAL's default, a thirtieth of alpha
+  constexpr double offset = 1. / 60; // CGAL's default, alpha / 30, where alpha is half of the diameter
   CGAL::Surface_mesh<Predicates_kernel::Point_3> mesh;
   CGAL::alpha_wrap_3(points, triangles, diameter / 2, offset * diameter, mesh);
   points.assign(mesh.points().begin(), mesh.points().end());

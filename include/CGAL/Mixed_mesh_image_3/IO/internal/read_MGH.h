@@ -50,6 +50,8 @@ T big_endian_number(const char* bytes)
 // The first 90 bytes of a file, which are used.
 struct Mgh_header
 {
+  // FreeSurfer's MGH format: seven integers of four bytes, and 256 bytes (UNUSED_SPACE_SIZE in its sources),
+  // of which the flag and the geometry take 62.
   static constexpr std::size_t size_in_file = 284;
 
   std::int32_t version, sizes[3], frames, type, degrees_of_freedom;

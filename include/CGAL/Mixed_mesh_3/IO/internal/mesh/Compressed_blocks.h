@@ -32,6 +32,8 @@ namespace internal {
 /// size of the last block if that is smaller, or 0, and the compressed size of each block.
 class Compressed_blocks : public std::streambuf
 {
+  // A larger block makes files hardly smaller: of a mesh with 20,000 vertices, by 0.2 % if each array is one
+  // block; VTK's 2^15 bytes make it 0.1 % larger.
   static constexpr std::size_t block_size = 1 << 16;
 
   std::string m_block, m_compressed;

@@ -83,6 +83,8 @@ constexpr int boundary_tag = 3;
 /// for the region one that labels and other programs hardly use.
 inline int MSH_entity_tag(const Element_attributes& a)
 {
+  // Tags are integers of 32 bits with a sign: twice 10^9 is less than 2^31 = 2,147,483,648, and differences
+  // from subdomains beyond 10^9 are positive.
   constexpr int of_region = 1000000000;
   return !a.is_in_region                  ? a.subdomain_index
          : a.subdomain_index <= of_region ? of_region + a.subdomain_index

@@ -280,6 +280,8 @@ class MSH_reader
   // The number of nodes of an element that can be read or skipped.
   int size_of_type(std::int32_t type) const
   {
+    // Types 1 to 7 and 15 are in Gmsh's manual, section MSH file format; the others are MSH_POLYG_,
+    // MSH_POLYH_ and MSH_MAX_NUM of its header GmshDefines.h.
     constexpr int sizes[] = {0, 2, 3, 4, 4, 8, 6, 5}; // line, triangle, quadrilateral, and our kinds
     constexpr int point = 15, polygon = 34, polyhedron = 35, last = 140;
     if(type >= 1 && type <= 7)

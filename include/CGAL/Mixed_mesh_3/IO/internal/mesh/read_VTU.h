@@ -50,6 +50,7 @@ class VTU_reader : VTK_XML_reader
   std::optional<Cell_type> cell_type(std::int64_t type, std::size_t cell) const
   {
     static constexpr std::uint8_t voxel_order[8] = {0, 1, 3, 2, 4, 5, 7, 6};
+    // Types of vtkCellType.h: 0 to 9, VTK_QUAD, are empty cells, points, lines and faces; 11 is VTK_VOXEL.
     constexpr int voxel = 11, last_of_low_dimension = 9;
     for(Element_kind kind : element_kinds)
       if(element_names[kind].vtk_type == type)

@@ -61,7 +61,9 @@ inline bool is_flat(const std::vector<Surface::Point>& points)
     }
   for(const Surface::Point& p : points)
     height = (std::max)(height, std::abs(dot(across, to_vec3(p) - origin)) / (width > 0 ? width : 1));
-  constexpr double tolerance = 1e-13; // some hundred roundings
+  // The tolerance is 900 times 2^-53, the rounding of coordinates: points of a plane are flat although the
+  // plane is oblique, and as far from the origin as some hundred times its extent.
+  constexpr double tolerance = 1e-13;
   return height <= tolerance * extent;
 }
 

@@ -107,13 +107,12 @@ void for_each_near_pair(const Points& points, const std::vector<std::size_t>& of
       {{std::floor(p[0] / distance), std::floor(p[1] / distance), std::floor(p[2] / distance)}, v});
   }
   std::sort(sorted.begin(), sorted.end());
-  constexpr std::size_t none = 0;
   for(std::size_t i = 0; i < sorted.size(); ++i)
     for(int x = -1; x <= 1; ++x)
       for(int y = -1; y <= 1; ++y) { // columns of three cells
         const Cell& c = sorted[i].first;
         auto other = std::lower_bound(sorted.begin(), sorted.end(),
-                                      std::pair<Cell, std::size_t>{{c[0] + x, c[1] + y, c[2] - 1}, none});
+                                      std::pair<Cell, std::size_t>{{c[0] + x, c[1] + y, c[2] - 1}, 0});
         for(; other != sorted.end() && other->first <= Cell{c[0] + x, c[1] + y, c[2] + 1}; ++other)
           if(other->second < sorted[i].second
              && norm(to_vec3(points[other->second]) - to_vec3(points[sorted[i].second])) <= distance)
