@@ -267,6 +267,8 @@ private:
 inline Label_network balanced_network(Label_scores& scores, const std::vector<Label_extent_3>& extents,
                                       const std::array<double, 3>& deviations)
 {
+  // A head of five labels is balanced in round 8, 28 nuclei in round 3. With 4 rounds, the relative errors of
+  // the head's labels add up to 0.034 instead of 0.017.
   constexpr int most_rounds = 8;
   constexpr double accuracy = 0.01, resolution = 0.5; // relative, and in voxels
   // The logarithm of the ratio of two indicators changes by 4 / sqrt(2 pi) in a deviation where two labels

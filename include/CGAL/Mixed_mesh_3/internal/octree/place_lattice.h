@@ -41,9 +41,11 @@ class Lattice_placement
   // ratio of coordinates to edges, which may be a million.
   static constexpr double accuracy = 1e-9;
   // Share of the largest number of vertices within the budget from which uniform cells are candidates: the
-  // candidate nearest to a cube is taken.
+  // candidate nearest to a cube is taken. Of 17 meshes of surfaces in planes, 0.35 changes none; 0.9 changes
+  // two, those of a plate: its cells are 1.1 and 1.15 times as long as wide, not cubes.
   static constexpr double share_of_most = 0.7;
-  // The share of the budget that the coarsest cells may take where others are split.
+  // The share of the budget that the coarsest cells may take where others are split. Of 15 meshes with base
+  // level 3, 0.1 loses one, of a frame; with 0.6, two others change, and a plate with 9 holes gets one more.
   static constexpr double share_of_coarsest = 0.25;
 
   using Layers = Boxes_between_planes::Layers;

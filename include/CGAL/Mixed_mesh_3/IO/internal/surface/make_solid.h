@@ -217,7 +217,7 @@ inline Component_counts make_solid(const Read_surface_options& options, Points p
   polygons = Polygons();
 
   // Rounding the points where faces cut each other may make other faces cut. Of 262 surfaces that are read,
-  // of CGAL's data and with holes made, 83 need one pass, one needs two, and one needs three.
+  // of CGAL's data and with defects made, 83 need one pass, one needs two, and one needs three.
   constexpr int most_passes = 5;
   for(int pass = 0;; ++pass) {
     const Mesh_defect defect = find_mesh_defect(mesh, input);

@@ -84,7 +84,7 @@ inline repair::Solid_reading read_solid_or_refuse(const std::string& defect, con
 // other borders.
 inline std::size_t drop_protruding_faces(const Points& points, Polygons& polygons)
 {
-  // 0.1 and 0.5 read 315 surfaces, of CGAL's data and with holes made, alike.
+  // 0.1 and 0.5 read 315 surfaces, of CGAL's data and with defects made, alike.
   constexpr double largest_share = 0.25;
   const Edge_polygons edges = edges_of(polygons);
   std::vector<std::size_t> part;
@@ -140,7 +140,7 @@ inline void bound(const Read_surface_options& options, const std::string& defect
     throw Surface_defect{defect.empty() ? "the surface encloses no volume"
                                         : defect + "; it encloses no volume"};
   if(!defect.empty()) {
-    // Of 86 parts of surfaces, 2 have more that is inside out, and 16 less, but more than rounding.
+    // Of 86 repairs, 2 have more that is inside out, and 16 less, but more than rounding.
     constexpr double negligible_share = 1e-3;
     const double inverted = all.inverted_volume / (volume_of_all + all.inverted_volume);
     note_repair(defect + ": read as the solid that it encloses"
@@ -167,7 +167,7 @@ inline void close(const Read_surface_options& options, Points& points, Polygons&
                   Surface_input& input)
 {
   // Share of the area. With 0.98, a triangle of 1.2 % of the area that cuts a tetrahedron is no open sheet to
-  // be dropped; 0.999 reads 315 surfaces, of CGAL's data and with holes made, as 0.99 does.
+  // be dropped; 0.999 reads 315 surfaces, of CGAL's data and with defects made, as 0.99 does.
   constexpr double least_enclosed_share = 0.99;
   // Share of the area that is invented. Of 77 surfaces with holes made, 53 are filled, 24 of them with more
   // than 10 % of error in volume; with 0.1, 33 and 9; with 0.5, 74 and 42.
