@@ -59,8 +59,22 @@ std::vector<Vertex_index> remove_with_elements(Fitting_state<Quality>& s,
   return gone;
 }
 
+/// Removes a vertex with its elements or, where that may not be, a vertex beside it that has one element,
+/// which lies between three faces of the boundary, and would be flat where the surface is.
+/// \return the vertices that are gone
+template <class Quality>
+std::vector<Vertex_index> remove_at(Fitting_state<Quality>& s, Boundary_vertex_merger<Quality>& merger,
+                                    Vertex_index v)
+{
+  std::vector<Vertex_index> gone = remove_with_elements(s, merger, v);
+  for(Vertex_index u : s.mesh.neighbors(v))
+    if(gone.empty() && s.mesh.incident[u].size() == 1)
+      gone = remove_with_elements(s, merger, u);
+  return gone;
+}
+
 /// Merges each vertex that has not arrived with a vertex beside it, or removes it with its elements where it
-/// can not be merged; the others become underway.
+/// can not be merged; those that are left become underway.
 /// \return the merged pairs, and pairs of a removed vertex and `no_vertex`
 template <class Quality>
 std::vector<Working_mesh::Edge> merge_with_neighbors(Fitting_state<Quality>& s,
@@ -80,10 +94,10 @@ std::vector<Working_mesh::Edge> merge_with_neighbors(Fitting_state<Quality>& s,
       merged.emplace_back(v, w);
       continue;
     }
-    const std::vector<Vertex_index> gone = remove_with_elements(s, merger, v);
+    const std::vector<Vertex_index> gone = remove_at(s, merger, v);
     for(Vertex_index u : gone)
       merged.emplace_back(u, no_vertex);
-    if(gone.empty() && failed.count({v, v}) == 0)
+    if(std::find(gone.begin(), gone.end(), v) == gone.end() && failed.count({v, v}) == 0)
       s.underway.emplace_back(v, place);
   }
   if(!merged.empty())
