@@ -7,7 +7,6 @@
 
 #include "core/messages.h"
 
-#include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/fidelity.h>
 #include <CGAL/Mixed_mesh_3/quality.h>
 #include <CGAL/Mixed_mesh_3/surface_distance.h>
@@ -34,13 +33,15 @@ Solid solid_of(const mm3::Solid_topology& t)
 
 } // namespace
 
-Fidelity distances_and_volumes_of(const Mesh& mesh, const Surface& surface, double volume_of_surface,
-                                  Surface_tree tree)
+Fidelity fidelity_of(const Mesh& mesh, const Boundary& boundary, const Surface& surface,
+                     double volume_of_surface, Surface_tree tree)
 {
   constexpr double relative_error = 1e-4; // default of hausdorff_distance()
-  const auto [distance, vertices_off] = mm3::internal::distances_from_surface(mesh, surface, relative_error,
-                                                                              on_surface, std::move(tree));
+  const auto [distance, vertices_off] = mm3::internal::distances_from_surface(boundary, surface,
+                                                                              relative_error, on_surface,
+                                                                              std::move(tree));
   Fidelity f;
+  f.vertices = boundary.points.size();
   f.vertices_off = vertices_off;
   f.from_mesh = distance_of(distance.from_mesh);
   f.from_surface = distance_of(distance.from_surface);
@@ -49,16 +50,9 @@ Fidelity distances_and_volumes_of(const Mesh& mesh, const Surface& surface, doub
   return f;
 }
 
-Fidelity fidelity_of(const Mesh& mesh, const Surface& surface, double volume_of_surface)
+Topology topology_of(const Boundary& boundary, const Surface& surface, bool is_fitted, Status& status)
 {
-  Fidelity f = distances_and_volumes_of(mesh, surface, volume_of_surface, nullptr);
-  f.vertices = mm3::boundary_vertices(mesh).size();
-  return f;
-}
-
-Topology topology_of(const Mesh& mesh, const Surface& surface, bool is_fitted, Status& status)
-{
-  mm3::Solid_comparison c = mm3::compare_with_surface(mesh, surface, volume_tolerance);
+  mm3::Solid_comparison c = mm3::internal::compare_boundary(boundary, surface, volume_tolerance);
   auto& d = c.differences;
   if(!is_fitted)
     d.erase(std::remove_if(d.begin(), d.end(),

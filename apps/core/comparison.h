@@ -23,7 +23,8 @@
 
 namespace CGAL::Mixed_meshes_3::internal {
 class Triangle_tree;
-}
+struct Triangle_soup;
+} // namespace CGAL::Mixed_meshes_3::internal
 
 /// Largest relative difference of the volume of a body from its right volume.
 constexpr double volume_tolerance = 0.05;
@@ -79,21 +80,21 @@ struct Topology
   bool is_same = true;
 };
 
+/// The triangles of the boundary of a mesh.
+using Boundary = CGAL::Mixed_meshes_3::internal::Triangle_soup;
+
 /// The tree of the points of a surface that are closest to given ones.
 using Surface_tree = std::shared_ptr<const CGAL::Mixed_meshes_3::internal::Triangle_tree>;
 
-/// Measures the fidelity but for the numbers of vertices, which another thread may count meanwhile. \pre the
-/// boundary is a closed manifold
+/// Measures the fidelity but for self-intersections. \pre the boundary is a closed manifold
+/// \param boundary boundary of the mesh
 /// \param tree tree of the surface; if null, it is built. The tree is released if no other owner is left
-Fidelity distances_and_volumes_of(const Mesh& mesh, const Surface& surface, double volume_of_surface,
-                                  Surface_tree tree);
-
-/// Measures the fidelity. \pre the boundary is a closed manifold
-Fidelity fidelity_of(const Mesh& mesh, const Surface& surface, double volume_of_surface);
+Fidelity fidelity_of(const Mesh& mesh, const Boundary& boundary, const Surface& surface,
+                     double volume_of_surface, Surface_tree tree = nullptr);
 
 /// Compares the topology, and the volumes of bodies and cavities if the boundary is fitted: before that, the
 /// cells around it add some volume. \pre the boundary is a closed manifold
-Topology topology_of(const Mesh& mesh, const Surface& surface, bool is_fitted,
+Topology topology_of(const Boundary& boundary, const Surface& surface, bool is_fitted,
                      CGAL::Mixed_mesh_status& status);
 
 /// The status of a mesh that is compared with its surface: a tolerance may be missed between the points that

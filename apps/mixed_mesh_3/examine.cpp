@@ -7,8 +7,10 @@
 
 #include "mixed_mesh_3/verdict.h"
 
-#include <CGAL/Mixed_mesh_3/boundary_faces.h>
 #include <CGAL/Mixed_mesh_3/certify_mesh.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/element_measures.h>
+#include <CGAL/Mixed_mesh_3/internal/elements/element_points.h>
+#include <CGAL/Mixed_mesh_3/quality.h>
 #include <CGAL/Mixed_mesh_3/quality_bound.h>
 
 #include <cstddef>
@@ -20,12 +22,24 @@ namespace mm3 = CGAL::Mixed_meshes_3;
 
 namespace {
 
+// A measure of elements by their values, for several statistics of one measurement.
+auto known(const std::vector<double>& values)
+{
+  return [&values](const Mesh&, std::size_t e) { return values[e]; };
+}
+
 Shapes shapes_of(const Mesh& mesh)
 {
-  return {mm3::quality_statistics(mesh, mm3::scaled_jacobian),
-          mm3::quality_statistics(mesh, mm3::smallest_dihedral_angle),
-          mm3::quality_statistics(mesh, mm3::largest_dihedral_angle),
-          mm3::quality_statistics(mesh, mm3::quad_warp)};
+  std::vector<double> smallest(mesh.number_of_elements()), largest(mesh.number_of_elements());
+  for(std::size_t e = 0; e < mesh.number_of_elements(); ++e) {
+    const mm3::Element_view element = mesh.element(e);
+    const auto angles = mm3::internal::dihedral_angles(element.kind(),
+                                                       mm3::internal::element_points(mesh, element));
+    smallest[e] = angles.smallest;
+    largest[e] = angles.largest;
+  }
+  return {mm3::quality_statistics(mesh, mm3::scaled_jacobian), mm3::quality_statistics(mesh, known(smallest)),
+          mm3::quality_statistics(mesh, known(largest)), mm3::quality_statistics(mesh, mm3::quad_warp)};
 }
 
 // A sentence with the unit of volumes, which the library does not know, where the program knows the unit.
@@ -37,10 +51,10 @@ std::string with_unit(std::string sentence, bool is_in_mm)
 }
 
 // The differences in units that the program knows.
-Topology topology_with_units(const Mesh& mesh, const Surface& surface, bool is_fitted, bool is_in_mm,
+Topology topology_with_units(const Boundary& boundary, const Surface& surface, bool is_fitted, bool is_in_mm,
                              CGAL::Mixed_mesh_result_3& result)
 {
-  Topology t = topology_of(mesh, surface, is_fitted, result.status);
+  Topology t = topology_of(boundary, surface, is_fitted, result.status);
   for(Difference& d : t.differences)
     d.sentence = with_unit(d.sentence, is_in_mm);
   return t;
@@ -66,38 +80,44 @@ std::vector<Check> checks_of_fidelity(const Outcome& outcome, Fit fit)
 
 Aspect_ratios aspect_ratios_of(const Mesh& mesh)
 {
-  return {mm3::quality_statistics(mesh), mm3::quality_statistics(mesh, mm3::aspect_ratio_coefficient, 1.3, 7),
-          mm3::histogram(mesh, mm3::aspect_ratio_coefficient, histogram_edges())};
+  std::vector<double> ratios(mesh.number_of_elements());
+  for(std::size_t e = 0; e < ratios.size(); ++e)
+    ratios[e] = mm3::aspect_ratio_coefficient(mesh, e);
+  return {mm3::quality_statistics(mesh, known(ratios), 0, 7),
+          mm3::quality_statistics(mesh, known(ratios), 1.3, 7),
+          mm3::histogram(mesh, known(ratios), histogram_edges())};
 }
 
 void examine(const Mesh& mesh, const Surface& surface, Surface_tree tree, const Meshing_options& options,
              Stage_log& log, Outcome& outcome)
 {
   const bool is_fitted = options.fit() != Fit::NONE, is_in_mm = options.is_in_patient_space();
-  mm3::Mesh_certificate certificate{log("checks", [&] { return mm3::find_defects(mesh); })};
+  Boundary boundary;
+  mm3::Mesh_certificate certificate{log("checks", [&] {
+    const mm3::internal::Examined_mesh examined = mm3::internal::examine_mesh(mesh);
+    if(examined.defects.none()) {
+      boundary = mm3::internal::boundary_triangles(mesh, examined.boundary);
+      outcome.boundary_faces = examined.boundary.size();
+    }
+    return examined.defects;
+  })};
   if(certificate.defects.none()) {
     std::size_t& self_intersections = certificate.number_of_self_intersections;
-    std::size_t vertices = 0; // not in the fidelity, which another thread writes
     log.together(
       options.threads,
       {{"distance to surface",
         [&] {
-          outcome.fidelity = distances_and_volumes_of(mesh, surface, outcome.surface.volume, std::move(tree));
+          outcome.fidelity = fidelity_of(mesh, boundary, surface, outcome.surface.volume, std::move(tree));
         }},
-       {"checks", [&] { self_intersections = mm3::number_of_boundary_self_intersections(mesh); }},
-       {"checks",
-        [&] {
-          const std::vector<mm3::Face> faces = mm3::boundary_faces(mesh);
-          outcome.boundary_faces = faces.size();
-          vertices = mm3::vertices_of(faces).size();
-        }},
+       {"checks", [&] { self_intersections = mm3::internal::number_of_self_intersections(boundary); }},
        {"topology",
-        [&] { outcome.topology = topology_with_units(mesh, surface, is_fitted, is_in_mm, outcome.result); }},
+        [&] {
+          outcome.topology = topology_with_units(boundary, surface, is_fitted, is_in_mm, outcome.result);
+        }},
        {"quality", [&] {
           outcome.after = aspect_ratios_of(mesh);
           outcome.shapes = shapes_of(mesh);
         }}});
-    outcome.fidelity.vertices = vertices;
   }
   outcome.fidelity.self_intersections = certificate.number_of_self_intersections;
   for(const mm3::Mesh_certificate::Check& check : certificate.checks())

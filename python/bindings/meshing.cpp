@@ -13,6 +13,7 @@
 #include <CGAL/Labeled_polyhedral_mixed_mesh_domain_3.h>
 #include <CGAL/Mixed_mesh_3/Symmetric_solver_traits.h>
 #include <CGAL/Mixed_mesh_3/sheets.h>
+#include <CGAL/Mixed_mesh_3/surface_distance.h>
 #include <CGAL/Mixed_mesh_image_3/IO/read_anatomical_surface.h>
 #include <CGAL/Polyhedral_mixed_mesh_domain_3.h>
 #include <CGAL/boost/graph/copy_face_graph.h>
@@ -135,8 +136,9 @@ void compare(const Mesh& mesh, const Surface& surface, double tolerance,
   Fidelity fidelity;
   {
     const py::gil_scoped_release release;
-    topology = topology_of(mesh, surface, true, status);
-    fidelity = fidelity_of(mesh, surface, topology.surface.volume);
+    const Boundary boundary = mm3::internal::boundary_triangles(mesh);
+    topology = topology_of(boundary, surface, true, status);
+    fidelity = fidelity_of(mesh, boundary, surface, topology.surface.volume);
   }
   if(result.status != Status::STOPPED) { // else the reason is known
     const std::string defect = reason_for_no_likeness(fidelity, names);

@@ -68,9 +68,11 @@ O(n log n) for n elements, see `find_defects()`
 template <class Mesh>
 Mesh_certificate certify_mesh(const Mesh& mesh)
 {
-  Mesh_certificate certificate{find_defects(mesh)};
+  const internal::Examined_mesh examined = internal::examine_mesh(mesh);
+  Mesh_certificate certificate{examined.defects};
   if(certificate.defects.none() && mesh.number_of_elements() > 0)
-    certificate.number_of_self_intersections = number_of_boundary_self_intersections(mesh);
+    certificate.number_of_self_intersections = internal::number_of_self_intersections(
+      internal::boundary_triangles(mesh, examined.boundary));
   return certificate;
 }
 

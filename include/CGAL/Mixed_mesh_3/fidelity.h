@@ -332,6 +332,19 @@ private:
   }
 };
 
+/// As `compare_with_surface()`.
+/// \param boundary boundary of the mesh
+template <class FaceListGraph, class NamedParameters = parameters::Default_named_parameters>
+Solid_comparison compare_boundary(const Triangle_soup& boundary, const FaceListGraph& surface,
+                                  double volume_tolerance,
+                                  const NamedParameters& np = parameters::default_values())
+{
+  CGAL_precondition(volume_tolerance > 0);
+  const Nested_shells of_surface(surface_triangles(surface, np)), of_mesh(boundary);
+  return {topology_of(of_surface), topology_of(of_mesh),
+          Solid_comparer(of_surface, of_mesh, volume_tolerance)()};
+}
+
 } // namespace internal
 
 /*!
@@ -381,11 +394,7 @@ Solid_comparison compare_with_surface(const Mesh& mesh, const FaceListGraph& sur
                                       double volume_tolerance = 0.05,
                                       const NamedParameters& np = parameters::default_values())
 {
-  CGAL_precondition(volume_tolerance > 0);
-  const internal::Nested_shells of_surface(internal::surface_triangles(surface, np));
-  const internal::Nested_shells of_mesh(internal::boundary_triangles(mesh));
-  return {internal::topology_of(of_surface), internal::topology_of(of_mesh),
-          internal::Solid_comparer(of_surface, of_mesh, volume_tolerance)()};
+  return internal::compare_boundary(internal::boundary_triangles(mesh), surface, volume_tolerance, np);
 }
 
 } // namespace Mixed_meshes_3

@@ -157,16 +157,22 @@ inline bool are_opposite(const Face_vertices& a, const Face_vertices& b)
   return true;
 }
 
+/// \return the boundary faces, as `boundary_faces()` gives them
 template <class Mesh>
-void find_nonconforming_faces(const Mesh& mesh, Mesh_defects& defects)
+std::vector<Face> find_nonconforming_faces(const Mesh& mesh, Mesh_defects& defects)
 {
-  std::vector<Face_vertices> boundary;
+  std::vector<Face> faces;
   for_each_face(mesh.elements(), mesh.number_of_vertices(), [&](const auto& group) {
     if(group.size() == 1)
-      boundary.push_back(group[0].vertices());
+      faces.push_back(group[0]);
     else if(group.size() > 2 || !are_opposite(group[0].vertices(), group[1].vertices()))
       ++defects.nonconforming_faces;
   });
+  std::sort(faces.begin(), faces.end());
+  std::vector<Face_vertices> boundary;
+  boundary.reserve(faces.size());
+  for(const Face& face : faces)
+    boundary.push_back(face.vertices());
   // A quadrilateral against two triangles leaves all three faces on the "boundary".
   std::vector<std::array<Vertex_index, 4>> triangles;
   for(const Face_vertices& p : boundary)
@@ -189,6 +195,29 @@ void find_nonconforming_faces(const Mesh& mesh, Mesh_defects& defects)
   const Manifold_defects manifold = manifold_defects(boundary);
   defects.nonmanifold_boundary_edges = manifold.edges.size();
   defects.nonmanifold_boundary_vertices = manifold.vertices.size();
+  return faces;
+}
+
+/// The defects of a mesh, and its boundary, which is found on the way.
+struct Examined_mesh
+{
+  Mesh_defects defects;
+  std::vector<Face> boundary; ///< as `boundary_faces()` gives it; empty if there are invalid elements
+};
+
+template <class Mesh>
+Examined_mesh examine_mesh(const Mesh& mesh)
+{
+  Examined_mesh result;
+  Mesh_defects& defects = result.defects;
+  find_invalid_elements(mesh, defects);
+  find_bad_vertices(mesh, defects);
+  if(defects.invalid_elements == 0) {
+    if(defects.nonfinite_vertices == 0) // exact predicates need numbers
+      find_nonpositive_elements(mesh, defects);
+    result.boundary = find_nonconforming_faces(mesh, defects);
+  }
+  return result;
 }
 
 } // namespace internal
@@ -207,15 +236,7 @@ O(n log n) for n elements; about 120 bytes per hexahedron
 template <class Mesh>
 Mesh_defects find_defects(const Mesh& mesh)
 {
-  Mesh_defects defects;
-  internal::find_invalid_elements(mesh, defects);
-  internal::find_bad_vertices(mesh, defects);
-  if(defects.invalid_elements == 0) {
-    if(defects.nonfinite_vertices == 0) // exact predicates need numbers
-      internal::find_nonpositive_elements(mesh, defects);
-    internal::find_nonconforming_faces(mesh, defects);
-  }
-  return defects;
+  return internal::examine_mesh(mesh).defects;
 }
 
 } // namespace Mixed_meshes_3

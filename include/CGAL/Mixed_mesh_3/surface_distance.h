@@ -82,13 +82,13 @@ struct Distances_from_surface
   std::size_t number_of_vertices_off;
 };
 
+/// \param boundary boundary of the mesh
 /// \param tree tree of the surface; if null, it is built
-template <class Mesh, class FaceListGraph>
-Distances_from_surface distances_from_surface(const Mesh& mesh, const FaceListGraph& surface,
+template <class FaceListGraph>
+Distances_from_surface distances_from_surface(const Triangle_soup& boundary, const FaceListGraph& surface,
                                               double relative_error, double relative_tolerance,
                                               std::shared_ptr<const Triangle_tree> tree = nullptr)
 {
-  const Triangle_soup boundary = boundary_triangles(mesh);
   const Triangle_soup triangles = surface_triangles(surface, parameters::default_values());
   const Nearest_triangle nearest = tree ? Nearest_triangle(std::move(tree)) : Nearest_triangle(triangles);
   const double size = diagonal(triangles);

@@ -40,14 +40,15 @@ namespace internal {
 
 /// The boundary of a mesh. Quadrilaterals are split through their vertex of smallest index, as
 /// `split_to_tetrahedra()` does. Only the vertices of the boundary are in the soup.
+/// \param boundary boundary faces of the mesh
 template <class Mesh>
-Triangle_soup boundary_triangles(const Mesh& mesh)
+Triangle_soup boundary_triangles(const Mesh& mesh, const std::vector<Face>& boundary)
 {
   CGAL_precondition(!mesh.is_empty());
   Triangle_soup soup;
   constexpr std::size_t none = std::size_t(-1);
   std::vector<std::size_t> index(mesh.number_of_vertices(), none);
-  for(const Face& face : boundary_faces(mesh)) {
+  for(const Face& face : boundary) {
     std::array<Vertex_index, 4> v = face.vertices().padded();
     const int size = face.vertices().size();
     std::rotate(v.begin(), std::min_element(v.begin(), v.begin() + size), v.begin() + size);
@@ -60,6 +61,13 @@ Triangle_soup boundary_triangles(const Mesh& mesh)
       soup.triangles.push_back({index[v[0]], index[v[i]], index[v[i + 1]]});
   }
   return soup;
+}
+
+/// Overload that finds the boundary faces.
+template <class Mesh>
+Triangle_soup boundary_triangles(const Mesh& mesh)
+{
+  return boundary_triangles(mesh, boundary_faces(mesh));
 }
 
 /// The corners of a triangle.
