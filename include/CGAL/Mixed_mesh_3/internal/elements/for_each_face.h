@@ -78,27 +78,25 @@ public:
   static void visit(const Element_list& elements, std::size_t number_of_vertices,
                     const Is_candidate& is_candidate, const Visitor& visit)
   {
-    const auto for_each = [&](const auto& f) {
+    const auto for_each = [&](const auto& f) { // with the smallest vertex of each face
       for(Element_index e = 0; e < elements.size(); ++e) {
         const Element_view element = elements[e];
         for(int i = 0; i < element.reference().number_of_faces; ++i) {
-          std::array<Vertex_index, 4> v = vertices(element, i);
-          if(!std::all_of(v.begin(), v.begin() + element.reference().faces[i].size, is_candidate))
-            continue;
-          sort_vertices(v);
-          f(v, e, i);
+          const std::array<Vertex_index, 4> v = vertices(element, i);
+          if(std::all_of(v.begin(), v.begin() + element.reference().faces[i].size, is_candidate))
+            f((std::min)((std::min)(v[0], v[1]), (std::min)(v[2], v[3])), e, i);
         }
       }
     };
     std::vector<std::size_t> ends(number_of_vertices + 1, 0);
-    for_each([&](const std::array<Vertex_index, 4>& v, Element_index, int) { ++ends[v[0] + 1]; });
+    for_each([&](Vertex_index smallest, Element_index, int) { ++ends[smallest + 1]; });
     for(std::size_t v = 0; v < number_of_vertices; ++v)
       ends[v + 1] += ends[v];
     // The faces of all buckets take 5 bytes each; entries, of 24, are made for one bucket at a time.
     std::vector<Element_index> of_element(ends.back());
     std::vector<std::uint8_t> local_indices(ends.back());
-    for_each([&](const std::array<Vertex_index, 4>& v, Element_index e, int i) {
-      const std::size_t place = ends[v[0]]++;
+    for_each([&](Vertex_index smallest, Element_index e, int i) {
+      const std::size_t place = ends[smallest]++;
       of_element[place] = e;
       local_indices[place] = std::uint8_t(i);
     });
