@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -42,9 +43,15 @@ the diagonals, and tetrahedra of a valid but badly shaped element can have a neg
 template <class Mesh>
 Mesh split_to_tetrahedra(const Mesh& mesh, std::vector<Element_index>* origins = nullptr)
 {
-  Mesh result;
-  result.points() = mesh.points();
+  constexpr std::size_t tetrahedra[] = {1, 2, 3, 6}; // of an element, by kind
+  const auto counts = mesh.elements().counts();
+  const std::size_t number = std::inner_product(counts.begin(), counts.end(), tetrahedra, std::size_t(0));
+  Element_list list;
+  list.reserve(number, 4 * number);
+  std::vector<Element_attributes> attributes;
+  attributes.reserve(number);
   std::vector<Element_index> elements; // element of each tetrahedron
+  elements.reserve(number);
 
   for(Element_index e = 0; e < mesh.number_of_elements(); ++e) {
     const Element_view element = mesh.element(e);
@@ -63,17 +70,17 @@ Mesh split_to_tetrahedra(const Mesh& mesh, std::vector<Element_index>* origins =
         if(element[face.vertices[i]] < element[face.vertices[first]])
           first = i;
       for(int i = 1; i + 1 < face.size; ++i) {
-        result.add_element(TETRAHEDRON,
-                           {element[apex], element[face.vertices[first]],
-                            element[face.vertices[(first + i) % face.size]],
-                            element[face.vertices[(first + i + 1) % face.size]]},
-                           mesh.attributes(e));
+        list.add(TETRAHEDRON, {element[apex], element[face.vertices[first]],
+                               element[face.vertices[(first + i) % face.size]],
+                               element[face.vertices[(first + i + 1) % face.size]]});
+        attributes.push_back(mesh.attributes(e));
         elements.push_back(e);
       }
     }
   }
-  result.vertex_data() = mesh.vertex_data();
-  result.element_data() = mesh.element_data().selected(elements);
+  Mesh result;
+  result.assign(mesh.points(), std::move(list), std::move(attributes), mesh.vertex_data(),
+                mesh.element_data().selected(elements));
   if(origins != nullptr)
     *origins = std::move(elements);
   return result;
