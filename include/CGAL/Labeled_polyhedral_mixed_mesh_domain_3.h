@@ -28,6 +28,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -256,17 +257,19 @@ public:
   {
     std::vector<Point_3> samples;
     for(std::size_t i = 0; i < m_surfaces.size(); ++i)
-      add_samples(i, spacing, samples);
+      add_samples(i, spacing, samples, (std::numeric_limits<std::size_t>::max)());
     return samples;
   }
 
   /// Points of the visible surfaces of one subdomain, or of the cavities, 0.
-  std::vector<Point_3> surface_samples(double spacing, Subdomain_index index) const
+  /// \param most where there are more points, only one more than `most` is found
+  std::vector<Point_3> surface_samples(double spacing, Subdomain_index index,
+                                       std::size_t most = (std::numeric_limits<std::size_t>::max)()) const
   {
     std::vector<Point_3> samples;
     for(std::size_t i = 0; i < m_surfaces.size(); ++i)
       if(m_surfaces[i].index == index)
-        add_samples(i, spacing, samples);
+        add_samples(i, spacing, samples, most);
     return samples;
   }
 
@@ -459,15 +462,18 @@ private:
     return surface < m_surfaces.size() ? m_surfaces[surface].index : 0;
   }
 
-  // Adds the samples of a surface, without samples inside earlier surfaces.
-  void add_samples(std::size_t number, double spacing, std::vector<Point_3>& samples) const
+  // Adds the samples of a surface, without samples inside earlier surfaces, until there are more than `most`.
+  void add_samples(std::size_t number, double spacing, std::vector<Point_3>& samples, std::size_t most) const
   {
-    for(const Point_3& p : m_surfaces[number].surface->surface_samples(spacing))
+    for(const Point_3& p : m_surfaces[number].surface->surface_samples(spacing)) {
+      if(samples.size() > most)
+        return;
       if(std::none_of(m_surfaces.begin(), m_surfaces.begin() + std::ptrdiff_t(number), [&](const Labeled& s) {
            return CGAL::do_overlap(p.bbox(), s.surface->bbox())
                   && s.surface->bounded_side(p) == ON_BOUNDED_SIDE;
          }))
         samples.push_back(p);
+    }
   }
 
   template <class Range, class Closest>

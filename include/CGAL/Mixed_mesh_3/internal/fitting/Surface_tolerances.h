@@ -19,13 +19,13 @@
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Spatial_sort_traits_adapter_3.h>
 #include <CGAL/hilbert_sort.h>
-#include <CGAL/property_map.h>
+
+#include <boost/property_map/property_map.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <map>
-#include <utility>
 #include <vector>
 
 namespace CGAL {
@@ -93,7 +93,6 @@ public:
   {
     std::vector<Surface_sample> result;
     const auto add = [&](const auto& points, double tolerance) {
-      result.reserve(result.size() + points.size());
       for(const auto& p : points)
         result.push_back({to_vec3(p), tolerance});
     };
@@ -111,6 +110,21 @@ public:
   }
 
 private:
+  using Kernel = CGAL::Simple_cartesian<double>;
+
+  // The point of a sample: a property map, so that the samples themselves are sorted.
+  struct Point_of_sample
+  {
+    using key_type = Surface_sample;
+    using value_type = Kernel::Point_3;
+    using reference = value_type;
+    using category = boost::readable_property_map_tag;
+    friend value_type get(const Point_of_sample&, const Surface_sample& s)
+    {
+      return {s.point[0], s.point[1], s.point[2]};
+    }
+  };
+
   // Thins out the samples of many subdomains, and of surfaces much finer than the mesh, evenly, as they are
   // sorted along a curve; queries in succession are faster then, too.
   void thin_out(std::vector<Surface_sample>& samples) const
@@ -128,21 +142,9 @@ private:
 
   static void sort_along_curve(std::vector<Surface_sample>& samples)
   {
-    using Kernel = CGAL::Simple_cartesian<double>;
-    std::vector<std::pair<Kernel::Point_3, std::size_t>> numbered;
-    numbered.reserve(samples.size());
-    for(std::size_t i = 0; i < samples.size(); ++i)
-      numbered.emplace_back(Kernel::Point_3(samples[i].point[0], samples[i].point[1], samples[i].point[2]),
-                            i);
-    using Map = CGAL::First_of_pair_property_map<std::pair<Kernel::Point_3, std::size_t>>;
-    CGAL::hilbert_sort(numbered.begin(), numbered.end(),
-                       CGAL::Spatial_sort_traits_adapter_3<Kernel, Map>(Map()),
+    CGAL::hilbert_sort(samples.begin(), samples.end(),
+                       CGAL::Spatial_sort_traits_adapter_3<Kernel, Point_of_sample>(Point_of_sample()),
                        CGAL::Hilbert_sort_middle_policy());
-    std::vector<Surface_sample> sorted;
-    sorted.reserve(samples.size());
-    for(const auto& [point, i] : numbered)
-      sorted.push_back(samples[i]);
-    samples = std::move(sorted);
   }
 };
 

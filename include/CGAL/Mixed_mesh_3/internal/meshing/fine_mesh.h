@@ -238,7 +238,7 @@ inline void split_cells_at_small_subdomains(Located_octree& octree, std::size_t 
   for(Subdomain_index index : domain.subdomain_indices()) {
     const double width = width_of_chord * domain.mean_chord_length(index);
     std::vector<Narrow_place> places;
-    for(const auto& p : domain.surface_samples(width / samples, index))
+    for(const auto& p : domain.surface_samples(width / samples, index, most))
       places.push_back({to_vec3(p), width});
     Located_octree trial = octree;
     if(places.size() <= most)

@@ -20,6 +20,8 @@
 
 #include <CGAL/Bbox_3.h>
 
+#include <cstddef>
+#include <limits>
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -91,7 +93,10 @@ public:
   virtual Point_3 closest_point(const Point_3& p, Subdomain_index first, Subdomain_index second) const = 0;
   virtual Point_3 closest_point(const Point_3& p, const Point_3& hint, Subdomain_index first,
                                 Subdomain_index second) const = 0;
-  virtual std::vector<Point_3> surface_samples(double spacing, Subdomain_index index) const = 0;
+  /// \param most where there are more samples, one more than `most` is enough, which is faster
+  virtual std::vector<Point_3>
+  surface_samples(double spacing, Subdomain_index index,
+                  std::size_t most = (std::numeric_limits<std::size_t>::max)()) const = 0;
   virtual double mean_chord_length(Subdomain_index index) const = 0;
   /// @}
 
@@ -110,6 +115,9 @@ class Surface_reference : public Base
 {
   using User_point = typename Surface::Point_3;
   static constexpr bool has_labels = has_subdomains<Surface>();
+  template <class S>
+  using Limited_samples = decltype(std::declval<const S&>().surface_samples(0., Subdomain_index(),
+                                                                            std::size_t()));
 
 protected:
   const Surface& m_surface;
@@ -167,9 +175,12 @@ public:
     else
       return closest_point(p, hint);
   }
-  std::vector<Point_3> surface_samples(double spacing, [[maybe_unused]] Subdomain_index index) const override
+  std::vector<Point_3> surface_samples(double spacing, [[maybe_unused]] Subdomain_index index,
+                                       [[maybe_unused]] std::size_t most) const override
   {
-    if constexpr(has_labels)
+    if constexpr(compiles<Limited_samples, Surface>)
+      return converted_points(m_surface.surface_samples(spacing, index, most));
+    else if constexpr(has_labels)
       return converted_points(m_surface.surface_samples(spacing, index));
     else
       return surface_samples(spacing);
