@@ -261,8 +261,8 @@ public:
     return samples;
   }
 
-  /// Points of the visible surfaces of one subdomain, or of the cavities, 0.
-  /// \param most where there are more points, only one more than `most` is found
+  /// Points of the visible surfaces of one subdomain, or of the cavities, 0. If they are more than `most`,
+  /// only one more than that is found, in less time.
   std::vector<Point_3> surface_samples(double spacing, Subdomain_index index,
                                        std::size_t most = (std::numeric_limits<std::size_t>::max)()) const
   {

@@ -106,6 +106,7 @@ public:
     m_share_of_bisections = share;
     return *this;
   }
+  /// The value set, or the default.
   double share_of_bisections() const
   {
     if(m_share_of_bisections != automatic)
