@@ -80,6 +80,12 @@ struct Meshing_state
 
   bool has_several_subdomains() const { return root.domain().subdomain_indices().size() > 1; }
 
+  /// Of the budget, for vertices that bisect edges of the boundary.
+  double share_of_bisections() const
+  {
+    return criteria.share_of_bisections_for(root.domain().subdomain_indices().size());
+  }
+
   bool has_quality_bound() const
   {
     return criteria.quality_bound() < std::numeric_limits<double>::infinity();
@@ -89,7 +95,7 @@ struct Meshing_state
   std::size_t budget() const
   {
     const std::size_t n = criteria.maximal_number_of_vertices();
-    return n - std::size_t(criteria.share_of_bisections() * double(n));
+    return n - std::size_t(share_of_bisections() * double(n));
   }
 
   /// The same, with those that will be removed.

@@ -133,7 +133,7 @@ inline void optimize_boundary(Meshing_state& s, Core_mesh& mesh, Followed_featur
                           .tolerance(s.result.tolerance)
                           .quality_bound(s.quality_bound)
                           .sharp_angle(s.criteria.sharp_angle())
-                          .number_of_bisections(s.criteria.share_of_bisections() > 0 ? rest : 0);
+                          .number_of_bisections(s.share_of_bisections() > 0 ? rest : 0);
   s.result.optimization = optimize_bounded(
     mesh, s.root.domain(), {criteria, s.criteria.number_of_threads}, Aspect_ratio_quality_3(),
     [&s] { return s.go_on(); }, {}, followed);
