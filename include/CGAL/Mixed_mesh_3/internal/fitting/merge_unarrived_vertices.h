@@ -100,6 +100,9 @@ std::vector<Working_mesh::Edge> merge_with_neighbors(Fitting_state<Quality>& s,
     if(std::find(gone.begin(), gone.end(), v) == gone.end() && failed.count({v, v}) == 0)
       s.underway.emplace_back(v, place);
   }
+  s.underway.erase(std::remove_if(s.underway.begin(), s.underway.end(), // gone with a later one
+                                  [&](const auto& u) { return !s.mesh.is_on_boundary(u.first); }),
+                   s.underway.end());
   if(!merged.empty())
     s.update_boundary();
   return merged;
