@@ -460,7 +460,7 @@ void test_hard_surfaces()
     const char* name;
     Test_surface surface;
     std::size_t vertices;
-  } cases[] = {{"spikes", spiky_ball(2.5, 7, 16), 600}, {"thin plates", thin_plates(), 2000}};
+  } cases[] = {{"spikes", spiky_ball(2.5, 7, 16), 550}, {"thin plates", thin_plates(), 2000}};
   for(const auto& c : cases) {
     Mesh free, mesh;
     const auto criteria = Mixed_mesh_criteria_3(c.vertices).simplification(false);

@@ -189,20 +189,24 @@ public:
     measure_from_boundary();
   }
 
-  /// The attractions of the vertices that are drawn, ascending, by the last measurement.
+  /// The attractions of the vertices that are drawn, ascending, by the last measurement. Those drawn before,
+  /// and no longer, are held where they are: else they would leave this place, for better elements.
   /// \param scale factor of the weights; 1 where costs to the fourth power are minimized
   std::vector<Attraction> attractions(double scale)
   {
     std::vector<Attraction> result;
     for(std::size_t i = 0; i < m_vertices.size(); ++i) {
-      if(!(m_weights[i] > 0))
-        continue;
       const Vertex_index v = m_vertices[i];
+      const bool is_drawn = m_weights[i] > 0;
+      if(!is_drawn && m_stiffness[v] == 1)
+        continue;
       const Vec3& p = m_mesh.points[v];
       const double length = mean_edge_length(v);
-      result.push_back({v, m_project(p + (1 / m_weights[i]) * m_shifts[i], p, m_mesh.strata[v]),
+      result.push_back({v,
+                        is_drawn ? m_project(p + (1 / m_weights[i]) * m_shifts[i], p, m_mesh.strata[v]) : p,
                         scale * weight * m_stiffness[v] / (length * length)});
-      m_stiffness[v] = (std::min)(stiffening * m_stiffness[v], stiffest);
+      if(is_drawn)
+        m_stiffness[v] = (std::min)(stiffening * m_stiffness[v], stiffest);
     }
     return result;
   }
