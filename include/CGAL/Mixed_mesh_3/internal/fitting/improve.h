@@ -17,11 +17,43 @@
 #include <CGAL/Mixed_mesh_3/internal/fitting/bisect_boundary.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <functional>
+#include <optional>
+#include <utility>
 
 namespace CGAL {
 namespace Mixed_meshes_3 {
 namespace internal {
+
+/// The state with most vertices on the surface, and then with the least distance, of those that were noted.
+template <class Quality>
+class Closest_state
+{
+  using Key = std::pair<std::size_t, double>; // number of vertices underway, largest distance
+
+  Fitting_state<Quality>& m_state;
+  std::optional<std::pair<Key, typename Fitting_state<Quality>::Snapshot>> m_closest;
+  Key m_last;
+
+public:
+  explicit Closest_state(Fitting_state<Quality>& state) : m_state(state) {}
+
+  /// Notes the state as it is. \pre distances have been measured
+  void note()
+  {
+    m_last = {m_state.underway.size(), m_state.attraction.largest_distance()};
+    if(!m_closest || m_last < m_closest->first)
+      m_closest = {m_last, m_state.snapshot()};
+  }
+
+  /// Restores the closest state. \pre elements have not changed since the first one was noted
+  void restore()
+  {
+    if(m_closest->first < m_last)
+      m_state.restore(m_closest->second);
+  }
+};
 
 /// Improves elements by moves and flips in turn, first all elements, then the worst ones.
 /// \return whether the pass was not stopped
@@ -56,6 +88,11 @@ bool improve(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
                                                                                    : 3 * rounds / 4;
   constexpr double power_of_late_bisections = 16; // the farthest edges, nearly; with 4, larger by 7 %
   const int rounds_to_flip = has_many_rounds ? 3 : 1;
+  // Steps for better elements may lose what was near: the closest of the states since elements have last
+  // changed is kept. With the last one instead, largest distances of 48 brains are larger by 4 %, one of them
+  // by 57 %.
+  const int last_change = (std::max)(last_late_bisection, (rounds - 1) / rounds_to_flip * rounds_to_flip);
+  Closest_state<Quality> closest(s);
   typename Fitting_state<Quality>::Flipper flipper(s.mesh, s.quality, s.intermediate_bound());
   s.moves.set_bound((std::min)(s.acceptable_final_cost, s.intermediate_bound()));
   for(int round = 0; round < rounds; ++round) {
@@ -73,6 +110,8 @@ bool improve(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
       s.moves.activate_all();
     if(has_tolerance) {
       s.attraction.measure();
+      if(round > last_change)
+        closest.note();
       s.moves.attract(s.attraction.attractions(weight));
     }
     s.moves.run(power, s.effort.good_enough[phase], has_many_rounds ? 3 : s.effort.sweeps[phase]);
@@ -83,6 +122,11 @@ bool improve(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
       bisect_far_edges(s, rest / std::size_t(last_late_bisection - round + 1), power_of_late_bisections);
     }
     ++s.result.number_of_rounds;
+  }
+  if(has_tolerance && rounds - 1 > last_change) {
+    s.attraction.measure();
+    closest.note();
+    closest.restore();
   }
   return true;
 }
