@@ -25,6 +25,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <queue>
 #include <set>
 #include <tuple>
@@ -43,6 +44,9 @@ path past a vertex between them: such an edge would fold on the polyline. A path
 of an edge too, which is bisected then. With several subdomains, corners and paths lie between the same
 subdomains as the corners and sharp edges of the surface.
 
+Where a path leads past a corner on the wrong side, another polyline does not reach the corner: then the path
+gives way to that of the other polyline, and is chosen anew, as wires of a circuit are (rip-up and reroute).
+
 Vertices of paths get the strata of their polylines and corners, edges are noted in
 `Working_mesh::sharp_edges`.
 */
@@ -51,6 +55,15 @@ class Feature_paths
 {
   using Edge = Working_mesh::Edge;
   using Node = Edge; // a vertex, twice, or an edge for its middle
+
+  // A vertex of the path of a polyline: the arc length at which it will be, and its future place before.
+  struct Path_vertex
+  {
+    Vertex_index vertex;
+    double length;
+    Vec3 place_before;
+  };
+  using Path = std::vector<Path_vertex>;
 
   // The triangles at an edge: their apexes and strata.
   struct Edge_star
@@ -72,17 +85,19 @@ class Feature_paths
   std::map<Edge, Edge_star> m_stars;
   std::set<Edge> m_whole;              // edges that can not be bisected
   std::vector<Vertex_index> m_corners; // vertex of each corner, or none
+  std::vector<Path> m_paths;           // of each polyline; empty if it has none
   std::vector<Edge> m_bisected;
   Stratum m_stratum = free_stratum; // of the polyline whose path is chosen
 
   // Weights of the length of edges: edges as far from the polyline as they are long count about
   // `distance_weight` times as much, and middles count more than vertices. Limits in sizes: farther away
   // there is no path, and no corner takes a vertex. Of a part, a gear and a slot of 2,000 vertices, the slot
-  // keeps less of its sharp edges with half or twice the weight, 0.973 and 0.979 instead of 0.984, and with
-  // half of the reach, 0.977; twice the reach is the same. With half of the factor, which prefers middles,
-  // the part keeps 0.37; with twice as much, distances are larger by 5 to 10 %. Half or twice as many trials
-  // are the same, as is half or twice the reach of corners.
-  static constexpr double distance_weight = 8, bisection_factor = 1.8, reach = 2.5, reach_of_corners = 4;
+  // keeps less of its sharp edges with half or twice the weight, 0.973 and 0.979 instead of 0.984. With half
+  // of the factor, which prefers middles, the part keeps 0.37; with twice as much, distances are larger by 5
+  // to 10 %. Half or twice as many trials are the same. Of 38 surfaces, with half of the reach a star with
+  // spikes keeps 0.929 instead of 0.994, with twice as much two boxes 0.938 instead of 0.968; with half of
+  // the reach of corners, a blade keeps 0.44 instead of 0.88.
+  static constexpr double distance_weight = 8, bisection_factor = 1.8, reach = 5, reach_of_corners = 8;
   static constexpr int trials = 20;
 
 public:
@@ -96,7 +111,7 @@ public:
     : m_mesh(mesh), m_quality(quality), m_features(features), m_strata(strata), m_worst(worst),
       m_bisections_left(bisections), m_places(std::move(places)), m_sizes(mesh.points.size(), 0),
       m_is_free(mesh.points.size(), 0), m_neighbors(mesh.points.size()),
-      m_corners(features.corners().size(), no_vertex)
+      m_corners(features.corners().size(), no_vertex), m_paths(features.polylines().size())
   {
     for(std::size_t f = 0; f < boundary.faces.size(); ++f) {
       const Face_vertices& v = boundary.faces[f].vertices();
@@ -129,6 +144,9 @@ public:
     });
     for(std::size_t i : order)
       choose_path(i);
+    for(std::size_t i : order)
+      if(m_paths[i].empty())
+        choose_path_across_others(i);
     cut_short_cuts();
   }
 
@@ -189,42 +207,133 @@ private:
     m_places[v] = where;
   }
 
-  void choose_path(std::size_t number)
+  Stratum stratum_of_polyline(std::size_t number) const
+  {
+    return m_strata.of_subdomains(m_features.subdomains(number));
+  }
+
+  // The polyline whose path an edge or a vertex is of, but for corners.
+  std::optional<std::size_t> polyline_of(const Node& n) const
+  {
+    const Stratum s = is_vertex(n) ? m_mesh.strata[n.first] : m_mesh.sharp_stratum(n.first, n.second);
+    const std::size_t number = std::size_t(s) - std::size_t(first_sharp_stratum);
+    return s >= first_sharp_stratum && number < m_paths.size() ? std::optional(number) : std::nullopt;
+  }
+
+  // Chooses a path that crosses no others. \return whether there is one
+  bool choose_path(std::size_t number)
   {
     const Feature_polyline& polyline = m_features.polylines()[number];
-    const Vertex_index first = m_corners[polyline.corners[0]], last = m_corners[polyline.corners[1]];
-    if(first == no_vertex || last == no_vertex)
-      return;
-    m_stratum = m_strata.of_subdomains(m_features.subdomains(number));
+    m_stratum = stratum_of_polyline(number);
     for(int trial = 0; trial < trials; ++trial) {
-      std::vector<Node> path = shortest_path(polyline, first, last);
-      if(path.empty())
-        return;
-      if(!bisect(path))
+      std::vector<Node> nodes = shortest_path(number);
+      if(nodes.empty())
+        return false;
+      if(!bisect(nodes))
         continue;
-      path = without_short_cuts(path, polyline);
-      const Stratum stratum = Stratum(first_sharp_stratum + number);
-      std::vector<double> lengths = ascending_lengths(path, polyline);
+      nodes = without_short_cuts(nodes, polyline);
+      std::vector<double> lengths = ascending_lengths(nodes, polyline);
       take_turns(polyline, lengths);
-      for(std::size_t i = 0; i + 1 < path.size(); ++i) {
-        m_mesh.sharp_edges[edge(path[i].first, path[i + 1].first)] = stratum;
-        if(i > 0)
-          take(path[i].first, stratum, polyline.at(lengths[i]));
-      }
+      Path path;
+      for(std::size_t i = 0; i < nodes.size(); ++i)
+        path.push_back({nodes[i].first, lengths[i], m_places[nodes[i].first]});
+      lay(number, std::move(path));
+      return true;
+    }
+    return false;
+  }
+
+  // Chooses a path in whose way others are. If not all of these get new paths, none is changed.
+  void choose_path_across_others(std::size_t number)
+  {
+    std::map<std::size_t, Path> before{{number, {}}};
+    if(reroute(number, before))
       return;
+    for(const auto& [changed, path] : before)
+      lift(changed);
+    for(const auto& [changed, path] : before)
+      lay(changed, with_middles(path));
+  }
+
+  // \param before the paths before of the polylines that are rerouted: others must not cross these again
+  // \return whether all have paths
+  bool reroute(std::size_t number, std::map<std::size_t, Path>& before)
+  {
+    if(choose_path(number))
+      return true;
+    std::vector<std::size_t> others;
+    for(const Node& n : shortest_path(number, &before))
+      if(const std::optional<std::size_t> other = polyline_of(n))
+        if(before.emplace(*other, m_paths[*other]).second)
+          others.push_back(*other);
+    if(others.empty())
+      return false;
+    for(std::size_t other : others)
+      lift(other);
+    return choose_path(number) && std::all_of(others.begin(), others.end(), [&](std::size_t other) {
+             return reroute(other, before);
+           });
+  }
+
+  void lay(std::size_t number, Path path)
+  {
+    const Stratum stratum = Stratum(first_sharp_stratum + number);
+    for(std::size_t i = 0; i + 1 < path.size(); ++i) {
+      m_mesh.sharp_edges[edge(path[i].vertex, path[i + 1].vertex)] = stratum;
+      if(i > 0)
+        take(path[i].vertex, stratum, m_features.polylines()[number].at(path[i].length));
+    }
+    m_paths[number] = std::move(path);
+  }
+
+  // Takes a path away.
+  void lift(std::size_t number)
+  {
+    const Path path = std::exchange(m_paths[number], {});
+    for(std::size_t i = 0; i + 1 < path.size(); ++i) {
+      m_mesh.sharp_edges.erase(edge(path[i].vertex, path[i + 1].vertex));
+      if(i > 0) {
+        take(path[i].vertex, stratum_of_polyline(number), path[i].place_before);
+        m_is_free[path[i].vertex] = 1;
+      }
     }
   }
 
+  // A path with the middles of its edges that have been bisected.
+  Path with_middles(const Path& path) const
+  {
+    if(path.empty())
+      return {};
+    const Vertex_index first_middle = Vertex_index(m_mesh.points.size() - m_bisected.size());
+    Path result{path.front()};
+    for(std::size_t i = 1; i < path.size(); ++i) {
+      Path rest{path[i]};
+      while(!rest.empty()) {
+        const Path_vertex &a = result.back(), &b = rest.back();
+        const auto found = std::find(m_bisected.begin(), m_bisected.end(), edge(a.vertex, b.vertex));
+        if(found == m_bisected.end()) {
+          result.push_back(b);
+          rest.pop_back();
+        } else {
+          const Vertex_index middle = Vertex_index(first_middle + (found - m_bisected.begin()));
+          rest.push_back({middle, 0.5 * (a.length + b.length), m_places[middle]});
+        }
+      }
+    }
+    return result;
+  }
+
   // Visits vertices and middles of edges that are joined by an edge of the stratum in force, or would be
-  // after bisections; not across paths.
+  // after bisections.
+  // \param is_across whether across paths too
   template <class Visit>
-  void for_each_neighbor(const Node& n, const Visit& visit) const
+  void for_each_neighbor(const Node& n, bool is_across, const Visit& visit) const
   {
     const auto middle = [&](Vertex_index a, Vertex_index b) {
       // The edge may be a diagonal of a quadrilateral.
       const auto star = m_stars.find(edge(a, b));
       if(m_bisections_left > 0 && star != m_stars.end() && star->second.stratum == m_stratum
-         && m_whole.count(edge(a, b)) == 0 && !m_mesh.is_sharp(a, b))
+         && m_whole.count(edge(a, b)) == 0 && (is_across || !m_mesh.is_sharp(a, b)))
         visit(edge(a, b));
     };
     if(is_vertex(n)) {
@@ -245,9 +354,15 @@ private:
     }
   }
 
-  std::vector<Node> shortest_path(const Feature_polyline& polyline, Vertex_index first,
-                                  Vertex_index last) const
+  // The shortest path of a polyline; empty if there is none.
+  // \param kept paths that it must not cross; each vertex and edge of another path counts as much as the
+  // length of its polyline, which is at stake; null: it must not cross any
+  std::vector<Node> shortest_path(std::size_t number, const std::map<std::size_t, Path>* kept = nullptr) const
   {
+    const Feature_polyline& polyline = m_features.polylines()[number];
+    const Vertex_index first = m_corners[polyline.corners[0]], last = m_corners[polyline.corners[1]];
+    if(first == no_vertex || last == no_vertex)
+      return {};
     struct State
     {
       double cost = std::numeric_limits<double>::infinity();
@@ -276,8 +391,10 @@ private:
         continue;
       if(n == end)
         break;
-      for_each_neighbor(n, [&](const Node& m) {
-        if(is_vertex(m) && m != end && (!m_is_free[m.first] || m_mesh.strata[m.first] != m_stratum))
+      for_each_neighbor(n, kept != nullptr, [&](const Node& m) {
+        const std::optional<std::size_t> other = kept != nullptr ? polyline_of(m) : std::nullopt;
+        if(other ? kept->count(*other) > 0 || stratum_of_polyline(*other) != m_stratum
+                 : is_vertex(m) && m != end && (!m_is_free[m.first] || m_mesh.strata[m.first] != m_stratum))
           return;
         if(m == end && n == start && m_mesh.is_sharp(first, last))
           return; // an edge of another polyline between the same corners
@@ -296,7 +413,8 @@ private:
         const double length = (std::max)(norm(b - a), std::abs(next.length - state.length)) + 0.05 * h;
         const double c = cost
                          + length * (1 + distance_weight * squares / (4 * h * h))
-                             * (is_vertex(m) ? 1 : bisection_factor);
+                             * (is_vertex(m) ? 1 : bisection_factor)
+                         + (other ? m_features.polylines()[*other].length() : 0);
         if(c < next.cost) {
           next.cost = c;
           next.from = n;
