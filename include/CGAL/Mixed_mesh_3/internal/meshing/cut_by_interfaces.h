@@ -133,9 +133,12 @@ class Interface_cutter
 
   static constexpr double infinity = std::numeric_limits<double>::infinity();
   // Share of the edge up to which its end is moved. With a larger one there are fewer and better elements,
-  // but tetrahedra of the octree may be inverted, which is tested.
+  // but tetrahedra of the octree may be inverted, which is tested. With half of it, the volume of a brain is
+  // 0.969 instead of 0.979; with twice as much, worst aspect-ratio coefficients of two of 18 meshes are 4.1
+  // and 4.8 instead of 2.6 and 3.1 (constants.md).
   static constexpr double near = 0.3;
   // Accuracy of the points where edges are cut, in edges; they are so far from the ends, at least.
+  // With a tenth and ten times of it, largest distances are 1.06 and 0.89 times as large in the median.
   static constexpr double accuracy = 1e-3;
 
 public:
@@ -334,8 +337,10 @@ private:
   // The subdomain that an edge passes between those of its ends; the one with the longest part of it.
   Hidden_subdomain hidden_subdomain(Vertex_index a, Vertex_index b) const
   {
-    constexpr std::size_t n = 8;     // parts of the edge
-    constexpr std::size_t least = 2; // samples: a single one may be between surfaces that should be one
+    constexpr std::size_t n = 8; // parts of the edge
+    // Samples: a single one may be between surfaces that should be one. If one suffices, four of 18 largest
+    // distances are larger and none is smaller (constants.md).
+    constexpr std::size_t least = 2;
     const Vec3 p = m_mesh.points[a], edge = m_mesh.points[b] - p;
     std::array<Subdomain_rank, n + 1> ranks;
     for(std::size_t i = 1; i < n; ++i)
@@ -417,7 +422,7 @@ private:
   // Whether the subdomains of the ends of an edge meet where it is cut.
   bool is_contact(Vertex_index a, Vertex_index b, double share) const
   {
-    constexpr double part = 0.05; // of the edge, before and behind that place
+    constexpr double part = 0.05; // of the edge, before and behind; half and twice: 18 meshes are the same
     const Vec3 p = m_mesh.points[a], edge = m_mesh.points[b] - p;
     const auto is_of_another = [&](double where) {
       const Subdomain_rank rank = m_octree.subdomain_rank(p + where * edge);
@@ -440,7 +445,7 @@ private:
   // one, at right angles to the way there.
   Cut crossing(Vertex_index a, Vertex_index b) const
   {
-    constexpr int most_steps = 6;
+    constexpr int most_steps = 6; // twice as many: 18 meshes are the same; half: six differ (constants.md)
     const Vec3 p = m_mesh.points[a], edge = m_mesh.points[b] - p;
     const double length = norm(edge);
     double low = 0, high = 1, share = 0.5;
@@ -613,6 +618,8 @@ Some queries for each edge at a cell that meets a surface
 */
 inline Core_mesh cut_by_interfaces(const Interface_cutter& uncut, bool keeps_thin_parts)
 {
+  // With half as many, the worst aspect-ratio coefficient of a cube with tunnels is 4.6 instead of 2.9; with
+  // twice as many, 18 meshes are the same (constants.md).
   constexpr int most_attempts = 4;
   std::vector<std::uint8_t> stays(uncut.number_of_vertices(), 0);
   for(int attempt = 0; attempt < most_attempts; ++attempt) {

