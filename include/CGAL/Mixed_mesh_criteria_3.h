@@ -98,8 +98,8 @@ public:
   /// Sets the share of the budget for bisections: vertices on the surface that the optimization inserts at
   /// the middles of boundary edges. Each bisection costs one vertex, where an octree cell costs 8 to 19.
   /// Without `fit_to_surface()`, that share is left over, for a later `optimize_mixed_mesh_3()`. 0: no edge
-  /// is bisected, even if the octree leaves vertices over. Default: 0.04, or 0.12 with subdomains within
-  /// others, which lose most; 0 without `fit_to_surface()`. \pre `automatic`, or in [0, 0.5]
+  /// is bisected, even if the octree leaves vertices over. Default: 0.04, or 0.12 with several
+  /// subdomains, as small ones lose most; 0 without `fit_to_surface()`. \pre `automatic`, or in [0, 0.5]
   Mixed_mesh_criteria_3& share_of_bisections(double share)
   {
     CGAL_precondition(share == automatic || (share >= 0 && share <= 0.5));

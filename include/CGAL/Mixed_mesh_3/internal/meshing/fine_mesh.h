@@ -182,7 +182,7 @@ inline Core_mesh fine_mesh_on_lattice(Meshing_state& s)
 /// distance from the region, until there is a number of cells, nearly.
 inline void split_cells_outside_region(Located_octree& octree, int coarsest_level, std::size_t most)
 {
-  // One of the parts may be missing. With half and twice as many, 17 and 16 of 18 meshes are the same.
+  // One of the parts may be missing. With half and twice as many, 16 and 17 of 18 meshes are the same.
   constexpr std::size_t parts_of_level = 64;
   for(int level = coarsest_level; level < Octree::max_level; ++level) {
     std::vector<std::pair<double, Octree::Node_index>> leaves; // with the distance from the region
