@@ -312,6 +312,22 @@ std::vector<Surface> Label_image::surfaces_of(const std::vector<Voxel_selection>
   return surfaces;
 }
 
+std::vector<mm3::Label_thickness_3>
+Label_image::thickness_of(const std::vector<Voxel_selection>& selections) const
+{
+  std::map<float, std::size_t> labels;
+  for(const auto& value : m_data->extents) {
+    const auto found = std::find_if(selections.begin(), selections.end(),
+                                    [&](const Voxel_selection& one) { return one(value.first); });
+    if(found != selections.end())
+      labels[value.first] = std::size_t(found - selections.begin()) + 1;
+  }
+  return mm3::label_thickness(m_data->image, selections.size(), [&labels](float value) {
+    const auto found = labels.find(value);
+    return found != labels.end() ? found->second : 0;
+  });
+}
+
 #else
 
 struct Label_image::Data
@@ -352,6 +368,11 @@ Surface Label_image::surface_of(const Voxel_selection&, const Label_surface_opti
 std::vector<Surface> Label_image::surfaces_of(const std::vector<Voxel_selection>&,
                                               const Label_surface_options&, std::vector<Surface_facts>&,
                                               std::vector<mm3::Label_change_3>&) const
+{
+  return {};
+}
+
+std::vector<mm3::Label_thickness_3> Label_image::thickness_of(const std::vector<Voxel_selection>&) const
 {
   return {};
 }

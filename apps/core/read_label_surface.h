@@ -12,6 +12,7 @@
 #include "core/voxel_selection.h"
 
 #include <CGAL/Mixed_mesh_image_3/Label_change_3.h>
+#include <CGAL/Mixed_mesh_image_3/label_thickness.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -92,6 +93,11 @@ public:
   std::vector<Surface> surfaces_of(const std::vector<Voxel_selection>& selections,
                                    const Label_surface_options& options, std::vector<Surface_facts>& facts,
                                    std::vector<CGAL::Mixed_meshes_3::Label_change_3>& changes) const;
+
+  /// How thin the background between several selections is, then each of these. A voxel is of the first
+  /// selection that has it.
+  std::vector<CGAL::Mixed_meshes_3::Label_thickness_3>
+  thickness_of(const std::vector<Voxel_selection>& selections) const;
 
 private:
   void check_box(const std::string& what, const std::string& option, double radius) const;

@@ -9,6 +9,7 @@
 #include "core/read_label_surface.h"
 #include "mixed_mesh_3/contacts.h"
 #include "mixed_mesh_3/label_groups.h"
+#include "mixed_mesh_3/layers.h"
 
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/boost/graph/copy_face_graph.h>
@@ -209,7 +210,7 @@ void tell(const std::vector<mm3::Label_change_3>& changes, const std::vector<Lab
 
 // Reads the surfaces of labels. What completion adds to them is of the one with most voxels; then they get
 // layers. Labels of which smoothing leaves nothing are lost.
-Labels read_labels(const Input_options& o, Surface_reader& read, Outcome& outcome)
+Labels read_labels(const Meshing_options& o, Surface_reader& read, Outcome& outcome)
 {
   const Label_image& whole = read.image(o.surface);
   std::vector<Label_group> groups = label_groups(o, whole, outcome.warnings);
@@ -224,8 +225,13 @@ Labels read_labels(const Input_options& o, Surface_reader& read, Outcome& outcom
   const std::optional<Label_image> layered = with_layers(o, completed, groups, outcome);
   const Label_image& image = layered ? *layered : completed;
   std::vector<Voxel_selection> all;
-  for(const Label_group& group : groups)
+  std::vector<std::string> names;
+  for(const Label_group& group : groups) {
     all.push_back(group.voxels);
+    names.push_back(group.name);
+  }
+  if(all.size() > 1)
+    check_layers(layers_of(image, all, names), o, outcome.warnings);
   outcome.voxels = (all.size() == 1 ? all[0] : united(all)).text;
   const auto lose = [&outcome](Subdomain_outcome s, const std::string& why) {
     outcome.has_lost_labels = true;
@@ -267,7 +273,7 @@ Labels read_labels(const Input_options& o, Surface_reader& read, Outcome& outcom
   return labels;
 }
 
-void read_domain(const Input_options& o, Surface_reader& read, Outcome& outcome, Inputs& inputs)
+void read_domain(const Meshing_options& o, Surface_reader& read, Outcome& outcome, Inputs& inputs)
 {
   const bool has_labels = o.label_choice != Label_choice::NONE;
   Labels labels = has_labels ? read_labels(o, read, outcome) : Labels();
@@ -311,7 +317,7 @@ void read_domain(const Input_options& o, Surface_reader& read, Outcome& outcome,
 
 } // namespace
 
-Inputs read_inputs(const Input_options& o, Stage_log& log, Outcome& outcome)
+Inputs read_inputs(const Meshing_options& o, Stage_log& log, Outcome& outcome)
 {
   Inputs inputs;
   Surface_reader read(o, outcome.warnings);

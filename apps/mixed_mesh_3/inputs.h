@@ -26,6 +26,6 @@ struct Inputs
 
 /// Reads all surfaces but sheets, each image once.
 /// \throw std::runtime_error a line naming the file and the defect
-Inputs read_inputs(const Input_options& options, Stage_log& log, Outcome& outcome);
+Inputs read_inputs(const Meshing_options& options, Stage_log& log, Outcome& outcome);
 
 #endif // MIXED_MESH_3_APPS_MIXED_MESH_3_INPUTS_H

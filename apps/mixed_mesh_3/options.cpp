@@ -352,8 +352,9 @@ void add_budget(CLI::App& app, Meshing_options& o)
     ->check(CLI::Validator(
       [](std::string& text) { return text == automatic_vertices ? std::string() : count(most)(text); }, ""))
     ->type_name("N|auto");
-  app.add_flag("--best-effort", o.best_effort,
-               "Go on where the budget is less than a quarter of what the layers of several subdomains take");
+  app.add_flag(
+    "--best-effort", o.best_effort,
+    "Go on where the budget is less than two fifths of what the layers of several subdomains take");
   app
     .add_option(
       "--nodes", o.nodes,

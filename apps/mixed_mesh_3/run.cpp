@@ -16,6 +16,7 @@
 #include "mixed_mesh_3/examine.h"
 #include "mixed_mesh_3/extract.h"
 #include "mixed_mesh_3/inputs.h"
+#include "mixed_mesh_3/layers.h"
 #include "mixed_mesh_3/nodes.h"
 #include "mixed_mesh_3/patches.h"
 #include "mixed_mesh_3/report.h"
@@ -287,7 +288,9 @@ bool run(Options o)
   Outcome outcome;
   const Inputs inputs = read_inputs(o, log, outcome);
   check_names_to_extract(o.extract, inputs.subdomains);
-  check_layers(inputs.subdomains, o, outcome.warnings);
+  if(o.label_choice
+     == Label_choice::NONE) // layers of labels have been checked before their surfaces were made
+    check_layers(layers_of(inputs.subdomains), o, outcome.warnings);
   if(o.tolerance > 0)
     check_tolerance(o.tolerance, o.surface, *inputs.boundary);
   Domain domain = log("AABB tree of surface", [&] { return make_domain(inputs.subdomains); });

@@ -190,43 +190,6 @@ void measure_visible_parts(std::vector<Subdomain>& subdomains)
   }
 }
 
-void check_layers(const std::vector<Subdomain>& subdomains, const Meshing_options& o,
-                  std::vector<std::string>& warnings)
-{
-  // Edges of a layer, in its thickness, with which all checks hold: spherical layers around a ball of 90 mm
-  // take 8,000 vertices if they are 2 mm thick, 2,000 if 4, 700 if 6, 250 if 12 mm. With a quarter of these
-  // vertices, volumes are a quarter off, or nothing is left of them.
-  constexpr double longest_edge = 2.7, least_share = 0.25, most_told = 1e12;
-  const double area_of_edge = std::sqrt(3.) / 2; // for each vertex of equilateral triangles
-  if(subdomains.size() < 2 || o.nodes > 0 || o.fewest_vertices || o.no_simplification
-     || o.fit() != Fit::OPTIMIZATION)
-    return;
-  double needed = 0, most = 0, thickness = 0;
-  const Subdomain* thinnest = nullptr;
-  for(const Subdomain& s : subdomains) {
-    if(s.index == 0 || !s.visible_volume || !(*s.visible_volume > 0))
-      continue;
-    const double mine = 2 * *s.visible_volume / s.visible_area, edge = longest_edge * mine,
-                 vertices = s.visible_area / (area_of_edge * edge * edge);
-    needed += vertices;
-    if(vertices > most) {
-      most = vertices;
-      thickness = mine;
-      thinnest = &s;
-    }
-  }
-  if(double(o.vertices) >= needed)
-    return;
-  const std::string text = o.budget() + ": few for the layers of " + o.surface + ", which take about "
-                           + std::to_string(100 * std::size_t(std::ceil((std::min)(needed, most_told) / 100)))
-                           + " vertices: " + thinnest->name + " is " + rounded(thickness)
-                           + (o.is_in_patient_space() ? " mm" : "") + " thick on average";
-  if(double(o.vertices) < least_share * needed && !o.best_effort)
-    throw std::runtime_error(text + ", and would be lost; --best-effort goes on"
-                             + (thinnest->volume ? ", --merge joins it to another one" : ""));
-  warnings.push_back(text);
-}
-
 void examine_subdomains(const Mesh& mesh, const Domain& domain, const std::vector<Subdomain>& subdomains,
                         const Meshing_options& options, Outcome& outcome)
 {

@@ -57,12 +57,6 @@ void order_by_nesting(std::vector<Subdomain>& subdomains, std::vector<std::strin
 /// Sets the volumes and areas of the visible parts of several subdomains, which come after those inside them.
 void measure_visible_parts(std::vector<Subdomain>& subdomains);
 
-/// Checks that the budget can hold the layers that labels are: each edge of a thin one may be some times as
-/// long as it is thick, on average. Too few vertices are told, and refused if nothing would be left of it,
-/// but for `--best-effort`.
-void check_layers(const std::vector<Subdomain>& subdomains, const Meshing_options& options,
-                  std::vector<std::string>& warnings);
-
 /// Examines volumes, quality and interfaces of subdomains that the user has named, with warnings for defects;
 /// and sets a status for parts that the mesh does not have. Those lost before come last.
 void examine_subdomains(const Mesh& mesh, const CGAL::Labeled_polyhedral_mixed_mesh_domain_3& domain,

@@ -516,8 +516,41 @@ Mesh random_mesh(unsigned seed)
   }
 }
 
+// Flips where a mesh overlaps, as while its boundary cuts itself: an edge or a face that is far away in the
+// mesh, and has the same vertices, is not made twice.
+void test_flips_of_overlapping_mesh()
+{
+  // A tetrahedron on each side of a face: with d and e as its ends, an edge through the face is better.
+  const std::vector<Mesh::Point_3> points{{1, 0, 0},    {-0.5, 0.8, 0}, {-0.5, -0.8, 0}, {0, 0, 0.3},
+                                          {0, 0, -0.3}, {9, 0, 0},      {9, 1, 0},       {9, 0, 1}};
+  constexpr int a = 0, b = 1, c = 2, d = 3, e = 4, x = 5, y = 6;
+  using Tetrahedra = std::vector<std::array<int, 4>>;
+  const auto flips = [&](const Tetrahedra& tetrahedra, const auto& flip) {
+    Element_list elements;
+    for(const auto& t : tetrahedra) {
+      std::array<Vertex_index, 4> v;
+      std::transform(t.begin(), t.end(), v.begin(), [](int i) { return Vertex_index(std::uint32_t(i)); });
+      elements.add(TETRAHEDRON, v.data());
+    }
+    Mesh mesh;
+    mesh.assign(points, elements, std::vector<Element_attributes>(tetrahedra.size()));
+    Working_mesh working(mesh, std::vector<Stratum>(points.size(), internal::free_stratum));
+    const Quality quality;
+    internal::Flip_context<Quality> context{working, quality, infinity};
+    const bool is_flipped = flip(context, Element_index(0));
+    BOOST_TEST(find_defects(working.changed(mesh)).conforming());
+    return is_flipped;
+  };
+  const auto flip_faces = [](auto& context, Element_index t) { return internal::flip_faces(context, t); };
+  const auto flip_edges = [](auto& context, Element_index t) { return internal::flip_edges(context, t); };
+  const Tetrahedra two{{a, b, c, d}, {a, c, b, e}};
+  BOOST_TEST(flips(two, flip_faces));
+  BOOST_TEST(!flips({two[0], two[1], {d, e, x, y}}, flip_faces));
+}
+
 int run(int, char*[])
 {
+  test_flips_of_overlapping_mesh();
   constexpr std::size_t transactions_of_each = 100;
   Counts counts;
   std::set<std::vector<std::array<int, 4>>> topologies;

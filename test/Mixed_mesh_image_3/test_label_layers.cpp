@@ -3,12 +3,14 @@
 //
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Labels that grow, and holes that get a label, compared with their definitions by brute force.
+// Labels that grow, holes that get a label, and how thin labels are, compared with their definitions by brute
+// force; the thickness of layers around a ball.
 
 #include "test_images.h"
 
 #include <CGAL/Mixed_mesh_image_3/fill_label_holes.h>
 #include <CGAL/Mixed_mesh_image_3/grow_label.h>
+#include <CGAL/Mixed_mesh_image_3/label_thickness.h>
 
 #include <boost/core/lightweight_test.hpp>
 
@@ -156,11 +158,83 @@ void test_no_label()
   BOOST_TEST(image.values == before);
 }
 
+// Each voxel of a row has its part of what the row counts.
+void test_thickness()
+{
+  std::mt19937 random(8);
+  for(int i = 0; i < 40; ++i) {
+    const Voxel_image_3 image = random_image(random, 1, unsigned(i % 8));
+    const std::array<std::size_t, 3>& size = image.grid.size;
+    const std::array<double, 3> spacing = voxel_spacing(image.grid);
+    const double volume = std::abs(determinant(image.grid.index_to_world));
+    std::array<Label_thickness_3, 3> expected;
+    const auto label_of = [](float value) {
+      return std::size_t(is_label(value) ? 2 : value == OTHER ? 1 : 0);
+    };
+    const auto label_at = [&](const Voxel& v) {
+      return label_of(
+        image.values[image.grid.offset(std::size_t(v[0]), std::size_t(v[1]), std::size_t(v[2]))]);
+    };
+    for(const Voxel& v : voxels_of(image.grid)) {
+      const std::size_t l = label_at(v);
+      for(std::size_t axis = 0; axis < 3; ++axis) {
+        int n = 1;
+        bool is_between = true;
+        for(int step : {-1, 1}) {
+          Voxel w = v;
+          w[axis] += step;
+          const auto is_in_image = [&] { return w[axis] >= 0 && w[axis] < int(size[axis]); };
+          for(; is_in_image() && label_at(w) == l; w[axis] += step)
+            ++n;
+          is_between = is_between && is_in_image();
+        }
+        const double area = volume / spacing[axis] / n;
+        if(l > 0 || is_between)
+          expected[l].thinness += 8. / 3 * area / std::pow(n * spacing[axis], 2);
+        expected[l].area += l > 0 ? 4. / 3 * area : 0;
+      }
+      expected[l].volume += l > 0 ? volume : 0;
+    }
+    const std::vector<Label_thickness_3> thickness = label_thickness(image, 2, label_of);
+    BOOST_TEST_EQ(thickness.size(), 3u);
+    const auto is_near = [](double x, double y) {
+      return std::abs(x - y) <= 1e-9 * (std::abs(x) + std::abs(y));
+    };
+    for(std::size_t l = 0; l < 3; ++l)
+      BOOST_TEST(is_near(thickness[l].thinness, expected[l].thinness)
+                 && is_near(thickness[l].area, expected[l].area)
+                 && is_near(thickness[l].volume, expected[l].volume));
+  }
+}
+
+// Two layers around a ball, and a gap between them.
+void test_thickness_of_layers()
+{
+  Voxel_image_3 image;
+  image.grid.size = {90, 70, 60};
+  image.grid.index_to_world = oblique({1, 1.25, 1.5}, {-100, 20, 3000}, false);
+  const std::array<double, 3> spacing = voxel_spacing(image.grid);
+  for(const Voxel& v : voxels_of(image.grid)) {
+    const double r = std::hypot(spacing[0] * v[0] - 44, spacing[1] * v[1] - 43, spacing[2] * v[2] - 44);
+    image.values.push_back(r < 26 ? 0.f : r < 31 ? 1.f : r < 35 ? 0.f : r < 42 ? 2.f : 0.f);
+  }
+  const auto thickness = label_thickness(image, 2, [](float value) { return std::size_t(value); });
+  const auto area = [](double radius) { return 4 * CGAL_PI * radius * radius; };
+  const auto is_about = [](double x, double y) { return std::abs(x / y - 1) < 0.1; };
+  BOOST_TEST(is_about(thickness[1].thickness(), 5) && is_about(thickness[2].thickness(), 7));
+  BOOST_TEST(is_about(thickness[1].area, area(26) + area(31)));
+  BOOST_TEST(std::abs(thickness[1].thinness / (2 * area(28.5) / 25) - 1) < 0.25);
+  BOOST_TEST(std::abs(thickness[2].thinness / (2 * area(38.5) / 49) - 1) < 0.25);
+  BOOST_TEST(std::abs(thickness[0].thinness / (2 * area(33) / 16) - 1) < 0.3); // the inner ball is thick
+}
+
 int run(int, char*[])
 {
   test_growth();
   test_holes();
   test_no_label();
+  test_thickness();
+  test_thickness_of_layers();
   return boost::report_errors();
 }
 

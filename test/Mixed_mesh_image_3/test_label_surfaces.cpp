@@ -281,6 +281,37 @@ void test_ball_near_outside()
   }
 }
 
+// Folded layers with so many vertices that the first steps are taken cube by cube: topology is kept, and
+// nothing cuts anything.
+void test_layers_in_cubes()
+{
+  constexpr std::size_t n = 60, wanted = 6000, vertices_of_cubes = 100000;
+  const Voxel_image_3 image = image_of({n, n, n}, oblique({1, 1.1, 0.9}, {-10, 20, 30}, true),
+                                       [](const Voxel& p) {
+                                         if(std::hypot(p[0] - 29.5, p[1] - 29.5, p[2] - 29.5) > 27)
+                                           return 0;
+                                         const auto wave = [](double x) { return x / 4; };
+                                         const double gyroid = std::sin(wave(p[0])) * std::cos(wave(p[1]))
+                                                               + std::sin(wave(p[1])) * std::cos(wave(p[2]))
+                                                               + std::sin(wave(p[2])) * std::cos(wave(p[0]));
+                                         return gyroid < -0.4 ? 1 : gyroid < 0.4 ? 2 : 3;
+                                       });
+  const std::vector<Surface> surfaces = surfaces_of(image, 3, 1),
+                             simplified = surfaces_of(image, 3, 1, wanted);
+  std::size_t number = 0, number_left = 0;
+  for(std::size_t l = 1; l <= 3; ++l) {
+    number += surfaces[l].number_of_vertices();
+    number_left += simplified[l].number_of_vertices();
+  }
+  BOOST_TEST_GT(number, vertices_of_cubes);
+  BOOST_TEST_LT(number_left, 3 * wanted);
+  check_network(simplified);
+  for(std::size_t l = 0; l < surfaces.size(); ++l) {
+    BOOST_TEST(topology(surfaces[l]) == topology(simplified[l]));
+    BOOST_TEST_LE(std::abs(PMP::volume(simplified[l]) / PMP::volume(surfaces[l]) - 1), 0.01);
+  }
+}
+
 int run(int, char*[])
 {
   test_random_labels();
@@ -289,6 +320,7 @@ int run(int, char*[])
   test_separate_labels();
   test_ball_near_outside();
   test_interfaces_of_domain();
+  test_layers_in_cubes();
   return boost::report_errors();
 }
 

@@ -366,7 +366,7 @@ class Test_segmentation(unittest.TestCase):
         values = np.select([((np.abs(x) - 12) / 10)**2 + (y / 25)**2 + (z / 12)**2 < 1, radius < 0.75 + fold, radius < 0.95],
                            [3, 1, 2], 0).astype(np.int16)
         path = self.image("brain.nii.gz", values, affine((3, 3, 3)))
-        told, run = self.mesh(path, "--labels", "white=1,gray=2,ventricles=3", "--vertices", 4000)
+        told, run = self.mesh(path, "--labels", "white=1,gray=2,ventricles=3", "--vertices", 4500)
         self.assertIn("all checks hold", run.stdout)
         for subdomain, label in zip(told["subdomains"], (1, 2, 3)):
             expected = np.count_nonzero(values == label) * 27
@@ -432,7 +432,7 @@ class Test_segmentation(unittest.TestCase):
         r = np.sqrt(x**2 + y**2 + z**2)
         image = self.image("shell.nii.gz", np.select([r < 25, r < 28.5], [1, 2], 0).astype(np.int16), affine((2, 2, 2)))
         layers = (image, "--labels", "core=1,shell=2", "--vertices")
-        words = "shell is 3.4"
+        words = "shell is 3.5"
         told = self.fails(*layers, 50, words=words).stderr
         self.assertIn("--merge", told)
         needed = int(told.split("about ")[1].split()[0])

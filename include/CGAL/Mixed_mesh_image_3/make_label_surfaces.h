@@ -16,7 +16,7 @@
 #include <CGAL/Mixed_mesh_image_3/Voxel_image_3.h>
 #include <CGAL/Mixed_mesh_image_3/internal/Label_network.h>
 #include <CGAL/Mixed_mesh_image_3/internal/Label_scores.h>
-#include <CGAL/Mixed_mesh_image_3/internal/Network_collapses.h>
+#include <CGAL/Mixed_mesh_image_3/internal/Network_simplifier.h>
 #include <CGAL/Mixed_mesh_image_3/internal/find_label_changes.h>
 #include <CGAL/Mixed_mesh_image_3/label_extents.h>
 
@@ -109,7 +109,7 @@ make_label_surfaces(const Voxel_image_3& image, const std::vector<HasLabel>& has
     for(auto& t : network.triangles)
       std::swap(t.vertices[1], t.vertices[2]);
   if(number_of_vertices > 0)
-    network = internal::simplified(network, number_of_vertices, threads);
+    network = internal::Network_simplifier(std::move(network), threads)(number_of_vertices);
 
   using Vertex = typename Surface_mesh_::Vertex_index;
   std::vector<std::unordered_map<std::uint32_t, Vertex>> vertices(surfaces.size());

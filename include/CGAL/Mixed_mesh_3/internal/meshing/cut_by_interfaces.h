@@ -328,12 +328,6 @@ private:
     return least;
   }
 
-  bool is_edge(Vertex_index a, Vertex_index b) const
-  {
-    return std::any_of(m_mesh.incident[a].begin(), m_mesh.incident[a].end(),
-                       [&](Element_index e) { return m_mesh.elements[e].has(b); });
-  }
-
   // The subdomain that an edge passes between those of its ends; the one with the longest part of it.
   Hidden_subdomain hidden_subdomain(Vertex_index a, Vertex_index b) const
   {
@@ -385,7 +379,7 @@ private:
     for(std::size_t i = 0; i < queue.size(); ++i) {
       const auto [a, b] = queue[i];
       const Vec3 edge = m_mesh.points[b] - m_mesh.points[a];
-      if(norm(edge) < least_length * m_shortest || !is_edge(a, b))
+      if(norm(edge) < least_length * m_shortest || !m_mesh.has_element_with(a, b))
         continue;
       const auto [found, is_new] = known.hidden.try_emplace({m_mesh.points[a], m_mesh.points[b]});
       if(is_new)

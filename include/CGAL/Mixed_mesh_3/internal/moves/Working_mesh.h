@@ -195,6 +195,14 @@ struct Working_mesh
     return around;
   }
 
+  /// Whether an element has these vertices, each different from the others.
+  template <class... Vertices>
+  bool has_element_with(Vertex_index a, Vertices... others) const
+  {
+    return std::any_of(incident[a].begin(), incident[a].end(),
+                       [&](Element_index e) { return (elements[e].has(others) && ...); });
+  }
+
   /// Whether an element with that edge is in the region of interest.
   bool is_edge_in_region(Vertex_index a, Vertex_index b) const
   {

@@ -57,7 +57,7 @@ inline Ring open_ring(const Working_mesh& mesh, Vertex_index a, Vertex_index b, 
   const Vec3 x = mesh.points[b] - mesh.points[a], y = mesh.points[c] - mesh.points[a],
              z = mesh.points[d] - mesh.points[a];
   const double longest = (std::max)({norm(x), norm(y), norm(z)});
-  if(mesh.are_on_one_sharp_line(c, d) || !mesh.elements_at_edge(c, d).empty()
+  if(mesh.are_on_one_sharp_line(c, d) || mesh.has_element_with(c, d)
      || std::abs(determinant(x, y, z)) > flat * longest * longest * longest)
     return {};
   return ring;
@@ -142,10 +142,13 @@ bool flip_edge(Flip_context<Quality>& context, Transaction& transaction, Vertex_
     context.note_in_vain(old, a, b);
     return false;
   }
+  // Where a boundary cuts itself, a new edge or face may be there already.
+  bool is_new = n > 3 || !context.mesh.has_element_with(ring[0], ring[1], ring[2]);
   std::vector<Tetrahedron> tetrahedra;
   const auto collect = [&](const auto& self, int i, int k) -> void {
     if(k - i < 2)
       return;
+    is_new = is_new && (k - i == n - 1 || !context.mesh.has_element_with(ring[i], ring[k]));
     const int j = middle[i][k];
     tetrahedra.push_back({ring[i], ring[j], ring[k], b});
     tetrahedra.push_back({ring[k], ring[j], ring[i], a});
@@ -153,7 +156,7 @@ bool flip_edge(Flip_context<Quality>& context, Transaction& transaction, Vertex_
     self(self, j, k);
   };
   collect(collect, 0, n - 1);
-  if(!context.replace(transaction, old, tetrahedra))
+  if(!is_new || !context.replace(transaction, old, tetrahedra))
     return false;
   context.number_of_removals += ring.size() > old.size(); // the boundary has other faces
   return true;

@@ -22,7 +22,7 @@ namespace Mixed_meshes_3 {
 namespace internal {
 
 /// Flips the face (a, b, c) of a tetrahedron (a, b, c, d), seen counter-clockwise from outside, if another
-/// tetrahedron is behind the face.
+/// tetrahedron is behind the face, and if the new edge is not there yet, as where a boundary cuts itself.
 template <class Quality>
 bool flip_face(const Flip_context<Quality>& context, Element_index e, Vertex_index a, Vertex_index b,
                Vertex_index c, Vertex_index d)
@@ -39,7 +39,7 @@ bool flip_face(const Flip_context<Quality>& context, Element_index e, Vertex_ind
     for(const Tetrahedron& t : tetrahedra)
       if(sum < limits.sum)
         sum += context.cost(t, limits.each);
-    if(!(sum < limits.sum))
+    if(!(sum < limits.sum) || context.mesh.has_element_with(d, apex))
       return false;
     Transaction transaction(context.mesh);
     return context.replace(transaction, old, tetrahedra);
