@@ -54,6 +54,19 @@ struct Label_image::Data
         all.add(extent);
     return all;
   }
+
+  // The number of the first selection that has a value, of each value that one of them has.
+  std::map<float, std::size_t> numbers(const std::vector<Voxel_selection>& selections) const
+  {
+    std::map<float, std::size_t> number_of_value;
+    for(const auto& entry : extents) {
+      const auto found = std::find_if(selections.begin(), selections.end(),
+                                      [&](const Voxel_selection& one) { return one(entry.first); });
+      if(found != selections.end())
+        number_of_value[entry.first] = std::size_t(found - selections.begin());
+    }
+    return number_of_value;
+  }
 };
 
 namespace {
@@ -288,17 +301,10 @@ std::vector<Surface> Label_image::surfaces_of(const std::vector<Voxel_selection>
                                               std::vector<Surface_facts>& facts,
                                               std::vector<mm3::Label_change_3>& changes) const
 {
-  std::map<float, std::size_t> number_of_value; // of the selection
+  const std::map<float, std::size_t> number_of_value = m_data->numbers(selections);
   std::vector<mm3::Label_extent_3> extents(selections.size());
-  for(const auto& [value, extent] : m_data->extents) {
-    const auto found = std::find_if(selections.begin(), selections.end(),
-                                    [v = value](const Voxel_selection& one) { return one(v); });
-    if(found == selections.end())
-      continue;
-    const auto number = std::size_t(found - selections.begin());
-    number_of_value[value] = number;
-    extents[number].add(extent);
-  }
+  for(const auto& [value, number] : number_of_value)
+    extents[number].add(m_data->extents.at(value));
   std::vector<std::function<bool(float)>> has_label; // for each voxel: the search in all selections is done
   for(std::size_t i = 0; i < selections.size(); ++i)
     has_label.emplace_back([&number_of_value, i](float value) {
@@ -315,16 +321,10 @@ std::vector<Surface> Label_image::surfaces_of(const std::vector<Voxel_selection>
 std::vector<mm3::Label_thickness_3>
 Label_image::thickness_of(const std::vector<Voxel_selection>& selections) const
 {
-  std::map<float, std::size_t> labels;
-  for(const auto& value : m_data->extents) {
-    const auto found = std::find_if(selections.begin(), selections.end(),
-                                    [&](const Voxel_selection& one) { return one(value.first); });
-    if(found != selections.end())
-      labels[value.first] = std::size_t(found - selections.begin()) + 1;
-  }
-  return mm3::label_thickness(m_data->image, selections.size(), [&labels](float value) {
-    const auto found = labels.find(value);
-    return found != labels.end() ? found->second : 0;
+  const std::map<float, std::size_t> number_of_value = m_data->numbers(selections);
+  return mm3::label_thickness(m_data->image, selections.size(), [&](float value) {
+    const auto found = number_of_value.find(value);
+    return found != number_of_value.end() ? found->second + 1 : 0;
   });
 }
 

@@ -34,8 +34,7 @@ std::vector<Layer> layers_of(const std::vector<Subdomain>& subdomains)
     if(s.index == 0 || !s.visible_volume || !(*s.visible_volume > 0))
       continue;
     const double thickness = 2 * *s.visible_volume / s.visible_area;
-    layers.push_back(
-      {s.name, thickness, vertices_for(s.visible_area / (thickness * thickness)), s.volume.has_value()});
+    layers.push_back({s.name, thickness, vertices_for(s.visible_area / (thickness * thickness))});
   }
   return layers;
 }
@@ -48,7 +47,7 @@ std::vector<Layer> layers_of(const Label_image& image, const std::vector<Voxel_s
   for(std::size_t l = 0; l < thickness.size(); ++l)
     if(l == 0 || thickness[l].volume > 0)
       layers.push_back({l == 0 ? "what is between them" : names[l - 1], l == 0 ? 0 : thickness[l].thickness(),
-                        vertices_for(thickness[l].thinness), true});
+                        vertices_for(thickness[l].thinness)});
   return layers;
 }
 
@@ -75,7 +74,8 @@ void check_layers(const std::vector<Layer>& layers, const Meshing_options& o,
                            + " vertices: " + thinnest->name + " is " + rounded(thinnest->thickness)
                            + (o.is_in_patient_space() ? " mm" : "") + " thick on average";
   if(double(o.vertices) < least_share * needed && !o.best_effort)
-    throw std::runtime_error(text + ", and would be lost; --best-effort goes on"
-                             + (thinnest->is_label ? ", --merge joins it to another one" : ""));
+    throw std::runtime_error(
+      text + ", and would be lost; --best-effort goes on"
+      + (o.label_choice != Label_choice::NONE ? ", --merge joins it to another one" : ""));
   warnings.push_back(text);
 }

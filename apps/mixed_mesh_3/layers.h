@@ -22,7 +22,6 @@ struct Layer
   std::string name;
   double thickness; // on average
   double vertices;  // that it takes
-  bool is_label;
 };
 
 /// The layers that the visible parts of surfaces form.

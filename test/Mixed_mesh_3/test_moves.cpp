@@ -520,12 +520,14 @@ Mesh random_mesh(unsigned seed)
 // mesh, and has the same vertices, is not made twice.
 void test_flips_of_overlapping_mesh()
 {
-  // A tetrahedron on each side of a face: with d and e as its ends, an edge through the face is better.
-  const std::vector<Mesh::Point_3> points{{1, 0, 0},    {-0.5, 0.8, 0}, {-0.5, -0.8, 0}, {0, 0, 0.3},
-                                          {0, 0, -0.3}, {9, 0, 0},      {9, 1, 0},       {9, 0, 1}};
+  // Two tetrahedra at a face, with the ends d and e; or three around the edge of these.
   constexpr int a = 0, b = 1, c = 2, d = 3, e = 4, x = 5, y = 6;
   using Tetrahedra = std::vector<std::array<int, 4>>;
-  const auto flips = [&](const Tetrahedra& tetrahedra, const auto& flip) {
+  const Tetrahedra two{{a, b, c, d}, {a, c, b, e}}, three{{b, a, d, e}, {c, b, d, e}, {a, c, d, e}};
+  const auto flips = [&](double height, Tetrahedra tetrahedra, const Tetrahedra& others, const auto& flip) {
+    const std::vector<Mesh::Point_3> points{{1, 0, 0},       {-0.5, 0.8, 0}, {-0.5, -0.8, 0}, {0, 0, height},
+                                            {0, 0, -height}, {9, 0, 1},      {9, 1, 0}};
+    tetrahedra.insert(tetrahedra.end(), others.begin(), others.end());
     Element_list elements;
     for(const auto& t : tetrahedra) {
       std::array<Vertex_index, 4> v;
@@ -543,9 +545,10 @@ void test_flips_of_overlapping_mesh()
   };
   const auto flip_faces = [](auto& context, Element_index t) { return internal::flip_faces(context, t); };
   const auto flip_edges = [](auto& context, Element_index t) { return internal::flip_edges(context, t); };
-  const Tetrahedra two{{a, b, c, d}, {a, c, b, e}};
-  BOOST_TEST(flips(two, flip_faces));
-  BOOST_TEST(!flips({two[0], two[1], {d, e, x, y}}, flip_faces));
+  BOOST_TEST(flips(0.3, two, {}, flip_faces));
+  BOOST_TEST(!flips(0.3, two, {{e, d, x, y}}, flip_faces));
+  BOOST_TEST(flips(0.6, three, {}, flip_edges));
+  BOOST_TEST(!flips(0.6, three, {{a, b, c, x}}, flip_edges));
 }
 
 int run(int, char*[])
