@@ -66,5 +66,5 @@ programs: $build/bin/mixed_mesh_3, $build/bin/brain_shift
 Next, look at the mesh in a browser, and shift it by measurements of your own:
 
     export PATH="$build/bin:\$PATH"
-    brain_shift $out/brain.vtu --control-points $root/data/control_points.csv --control-radius 12 --page shift.html
+    brain_shift $out/brain.vtu --control-points $root/data/control_points.csv --control-radius 14 --page shift.html
 END

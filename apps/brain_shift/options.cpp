@@ -358,7 +358,7 @@ void set_up(CLI::App& app, Options& o)
   app.add_flag("--quiet", o.quiet, "Print errors and warnings only");
   app.set_version_flag("--version", "brain_shift 0.1 (CGAL " CGAL_VERSION_STR ")");
   app.footer("Lengths are in mm. Example:\n"
-             "  brain_shift brain.vtu --control-points data/control_points.csv --control-radius 12 "
+             "  brain_shift brain.vtu --control-points data/control_points.csv --control-radius 14 "
              "--tumor data/tumour.off --output shift.vtu");
 }
 

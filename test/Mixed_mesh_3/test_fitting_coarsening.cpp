@@ -140,7 +140,7 @@ bool simplify(internal::Core_mesh& mesh, const internal::Any_surface& surface, s
   internal::Followed_features followed;
   double bound = 3.2;
   return internal::simplify(mesh, followed, surface, Aspect_ratio_quality_3(), number, radius, 1, bound,
-                            {true, 1, bound, true}, [] { return true; });
+                            {true, true, 1, bound, true}, [] { return true; });
 }
 
 // A cube loses none of its volume, nor its corners: its faces are flat.

@@ -367,7 +367,7 @@ bool simplify(Core_mesh& mesh, Followed_features& followed, const internal::Any_
               std::size_t number, double& bound)
 {
   return internal::simplify(mesh, followed, surface, Aspect_ratio_quality_3(), number, 0, 0.1, bound,
-                            {true, 0.1, 3.2, true}, [] { return true; });
+                            {true, true, 0.1, 3.2, true}, [] { return true; });
 }
 
 // A cube keeps all of its sharp edges, and its volume: its faces are flat. Meshes of fewer vertices have no

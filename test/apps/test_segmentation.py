@@ -378,6 +378,19 @@ class Test_segmentation(unittest.TestCase):
         self.output.unlink()
         self.fails(path, "--labels", "white=1,gray=2", "--wrap", 5, "--vertices", 500, words="--wrap would tear")
 
+    def test_folded_layers(self):
+        """Layers that fill a ball, as a cortex does: vertices are removed and the rest is fitted in turn until there are few
+        enough, which within the quality bound alone they never are."""
+        x, y, z = np.meshgrid(*(np.arange(32) - 15.5,) * 3, indexing="ij")
+        k = np.pi / 10
+        gyroid = np.sin(k * x) * np.cos(k * y) + np.sin(k * y) * np.cos(k * z) + np.sin(k * z) * np.cos(k * x)
+        values = np.where(x**2 + y**2 + z**2 < 14.4**2, np.select([gyroid > 0.55, gyroid > -0.55], [1, 2], 3), 0)
+        path = self.image("folds.nii", values.astype(np.int16), affine((1, 1, 1)))
+        told, _ = self.mesh(path, "--labels", "white=1,gray=2,fluid=3", "--vertices", 1000, "--best-effort")
+        self.assertGreater(told["mesh"]["vertices"], 950)
+        for subdomain, label in zip(told["subdomains"], (1, 2, 3)):
+            self.assertAlmostEqual(subdomain["volume"] / np.count_nonzero(values == label), 1, delta=0.2)
+
     def table(self, name, *lines):
         path = WORK / name
         path.write_text("\n".join(lines) + "\n")

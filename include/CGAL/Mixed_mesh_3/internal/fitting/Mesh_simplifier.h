@@ -320,31 +320,29 @@ private:
   Candidate best_candidate(Vertex_index v)
   {
     Candidate best{infinity, no_vertex};
-    double least = infinity;
+    const bool may_be_bad = m_defects[v] == Vertex_defect::PLACE; // the least bad of all ends is chosen
+    // New elements of a vertex that has to go may be as bad as those before.
+    double least = has_defect(v) ? (std::max)(m_bound, m_collapser.worst_at(v)) : m_bound;
     Short_vector<Candidate> all = candidates(v);
     std::sort(all.begin(), all.end());
-    for(const Candidate& c : all)
-      if(is_possible(v, c.end)) {
-        if(!has_defect(v))
-          return c;
-        const double worst = m_collapser.worst_after(v, c.end, infinity);
-        if(m_defects[v] == Vertex_defect::ELEMENT && worst <= m_bound)
-          return c;
-        if(worst < least) {
-          least = worst;
-          best = c;
-        }
-      }
+    for(const Candidate& c : all) {
+      const double worst = m_collapser.worst_after(v, c.end, least);
+      if(!(worst < least || (worst == least && best.end == no_vertex)) || !is_possible(v, c.end))
+        continue;
+      if(worst <= m_bound && !may_be_bad)
+        return c;
+      least = worst;
+      best = c;
+    }
     return best;
   }
 
+  // Whether an edge can be collapsed, but for the cost of elements.
   bool is_possible(Vertex_index v, Vertex_index w)
   {
-    const bool is_on_boundary = m_mesh.is_on_boundary(v);
     return !(m_follows_curves && m_mesh.is_sharp(v, w) && !follows_curve(v, w))
-           && !(is_on_boundary && (!is_link_of_boundary_edge(v, w) || !stays_near(v, w)))
-           && m_collapser.worst_after(v, w, bound_at(v)) <= bound_at(v) && m_collapser.is_link_of_edge(v, w)
-           && !crosses(v, w);
+           && !(m_mesh.is_on_boundary(v) && (!is_link_of_boundary_edge(v, w) || !stays_near(v, w)))
+           && m_collapser.is_link_of_edge(v, w) && !crosses(v, w);
   }
 
   // Whether the edge that takes the place of two edges of a polyline is near to the polyline.
@@ -368,12 +366,6 @@ private:
     return m_defects[v] == Vertex_defect::PLACE     ? share_of_place
            : m_defects[v] == Vertex_defect::ELEMENT ? share_of_element
                                                     : 1;
-  }
-
-  // New elements of a vertex that has to go may be as bad as those before.
-  double bound_at(Vertex_index v) const
-  {
-    return has_defect(v) ? (std::max)(m_bound, m_collapser.worst_at(v)) : m_bound;
   }
 
   // Interfaces inside cut nothing as long as all elements are positive and the boundary does not cut itself.

@@ -88,6 +88,7 @@ inline std::vector<double> weights_of_faces(const Core_mesh& mesh, const Interfa
 /// What simplification gives up, in the order of the members, while the mesh has too many vertices.
 struct Simplification_concessions
 {
+  bool curves;          ///< that edges stay near to curved sharp edges
   bool region;          ///< that vertices of the region stay
   double distance;      ///< a smaller distance, for this one
   double quality_bound; ///< a smaller bound, for one of up to this one
@@ -208,7 +209,8 @@ bool simplify(Core_mesh& mesh, Followed_features& followed, const Any_surface& s
   remove(distance, true);
   if(!followed.features.polylines().empty())
     raise_bound((std::min)(largest_multiple_for_curves * quality_bound, concessions.quality_bound), true);
-  remove(distance, false);
+  if(concessions.curves)
+    remove(distance, false);
   if(has_region && concessions.region) {
     simplifier.give_up_region();
     remove(distance, false);

@@ -46,7 +46,7 @@ simplify_within_limits(Core_mesh& mesh, const Any_surface& surface, const Qualit
   double bound = bound_for_doubles(criteria.quality_bound());
   const bool is_reached = simplify(mesh, followed, surface, quality, criteria.number_of_vertices(),
                                    criteria.region_radius(), criteria.distance(), bound,
-                                   {false, criteria.distance(), bound, false}, [&] {
+                                   {true, false, criteria.distance(), bound, false}, [&] {
                                      is_stopped = is_stopped || !go_on();
                                      return !is_stopped;
                                    });
