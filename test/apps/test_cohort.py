@@ -37,7 +37,7 @@ TABLE = f"""# Of two brains and a broken one.
 id,brain,tumor,opening,control_points,vertices
 ball,{DATA}/brain.off,28 18 28 14,44 30 75 20,{DATA}/control_points.csv,350
 file,{DATA}/brain.off,{DATA}/tumour.off,,,400
-broken,broken.off,,,,300
+broken,broken.off,,,,350
 """
 SBATCH = """#!/usr/bin/python3
 import subprocess, sys

@@ -115,6 +115,9 @@ struct Fitting_state
   // had arrived. New vertices get positions between the ends of their edges.
   std::vector<Vec3> saved_points;
   std::vector<std::uint8_t> saved_is_arrived;
+  bool is_careful = false; // at each test, faces that cut each other go back there, as none did at the start
+  // Largest cost that an element may have at saved positions: some of the start may be above the bound.
+  const double largest_saved_cost;
   std::vector<Vec3> feature_places;      // starts of the search for targets, if there are features
   Self_intersections self_intersections; // of the boundary at the last test
   Mixed_mesh_optimization_result_3 result;
@@ -129,7 +132,8 @@ struct Fitting_state
       moves(mesh, quality, project, criteria.sliding_threshold(), intermediate_bound()),
       mean_edge_lengths(measure_edges()), tolerances(enlarged_tolerances()), samples(surface_samples()),
       attraction(mesh, project, samples, criteria.number_of_threads), is_arrived(mesh.points.size(), 0),
-      is_held(mesh.points.size(), 0), saved_points(mesh.points), saved_is_arrived(mesh.points.size(), 0)
+      is_held(mesh.points.size(), 0), saved_points(mesh.points), saved_is_arrived(mesh.points.size(), 0),
+      largest_saved_cost((std::max)(intermediate_bound(), largest_cost_at_start()))
   {
     attract_boundary();
     moves.set_steps(effort.first_step, effort.step_growth);
@@ -342,6 +346,16 @@ private:
     for(const auto& [index, sum] : edges)
       means[index] = sum.first / double(sum.second);
     return means;
+  }
+
+  // Largest cost of an element; 0 if elements may have any on the way.
+  double largest_cost_at_start() const
+  {
+    double largest = 0;
+    if(mode.keeps_bound)
+      for(const Working_mesh::Element& element : mesh.elements)
+        largest = (std::max)(largest, quality(element.kind, mesh.relative_points(element)));
+    return largest;
   }
 
   // Tolerances, at least a tenth of an edge: a smaller distance is due to the curvature of the surface, and

@@ -73,15 +73,13 @@ bool arrive(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
   set_targets(s);
   if(!s.mode.keeps_sharp_edges)
     split_flat_elements(s);
-  // Small steps are checked: vertices whose faces would cut others go back, and are held. There is no check
-  // without a bound: where elements may get that bad, too many vertices would be held.
-  const bool is_careful = s.mode.is_without_attraction && s.has_bound() && s.crossing_vertices().empty();
-  if(is_careful)
+  // Small steps are checked: vertices whose faces would cut others go back, and are held. So are those from a
+  // mesh that is on the surface already: layers of seven cortices were fitted two to four times without that.
+  // There is no check without a bound: where elements may get that bad, too many vertices would be held.
+  s.is_careful = (s.mode.is_without_attraction || s.mode.keeps_bound) && s.has_bound()
+                 && s.crossing_vertices().empty();
+  if(s.is_careful)
     s.save_points();
-  const auto undo_crossing = [&] {
-    if(is_careful && go_back_until_simple(s).empty())
-      s.save_points();
-  };
   const double largest_acceptable = s.mode.leaves_rest ? s.final_bound() : largest_acceptable_cost;
   double acceptable = (std::min)(initial_acceptable_cost, largest_acceptable);
   int rounds_without_arrival = 0;
@@ -97,13 +95,13 @@ bool arrive(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
         break;
       has_flipped = true;
       rounds_without_arrival = 0;
-      undo_crossing(); // so that elements are valid at saved places after flips, too
+      undo_crossing(s); // so that elements are valid at saved places after flips, too
       typename Fitting_state<Quality>::Flipper flipper(s.mesh, s.quality, s.intermediate_bound());
       s.result.number_of_flips += s.flip(flipper, power_of_flips, least_cost_to_flip_in_vain);
     }
     s.moves.run(4, s.effort.good_enough_to_arrive, s.effort.sweeps_to_arrive);
     if(round % rounds_until_check == rounds_until_check - 1 || s.underway.empty())
-      undo_crossing();
+      undo_crossing(s);
     if(s.features && s.criteria.flips() && !s.mode.leaves_rest && round >= rounds_until_flips
        && round % rounds_to_flip == rounds_to_flip - 1 && !s.underway.empty()) {
       typename Fitting_state<Quality>::Flipper flipper(s.mesh, s.quality, s.intermediate_bound());
@@ -116,7 +114,7 @@ bool arrive(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
        && (round - rounds_for_features) % 3 == 0)
       give_up_features(s, round > rounds_for_features);
   }
-  undo_crossing();
+  undo_crossing(s);
   return true;
 }
 

@@ -15,6 +15,7 @@
 
 #include <CGAL/Mixed_mesh_3/internal/fitting/Fitting_state.h>
 #include <CGAL/Mixed_mesh_3/internal/fitting/bisect_boundary.h>
+#include <CGAL/Mixed_mesh_3/internal/fitting/retreat.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -98,8 +99,11 @@ bool improve(Fitting_state<Quality>& s, const std::function<bool()>& go_on)
   for(int round = 0; round < rounds; ++round) {
     if(!go_on())
       return false;
-    if(has_tolerance && round > 0 && round % rounds_to_flip == rounds_to_flip - 1)
-      s.save_points_if_simple(); // before the first round, the arrival was tested
+    const bool is_checked = round > 0 && round % rounds_to_flip == rounds_to_flip - 1; // first, after arrival
+    if(is_checked && s.is_careful)
+      undo_crossing(s);
+    else if(is_checked && has_tolerance)
+      s.save_points_if_simple();
     const int phase = round < second_phase ? 0 : 1;
     const auto [power, least_cost_to_flip, weight] = phases[phase];
     if(s.criteria.flips() && round % rounds_to_flip == 0)

@@ -41,7 +41,7 @@ void hold_vertices(Fitting_state<Quality>& s, const std::vector<Vertex_index>& v
 
 /// Moves vertices back to saved places, all at once: one by one, those that have moved as well would be in
 /// the way of each other. Vertices that have arrived since then are underway again.
-/// \return whether no element is above the bound in force then; otherwise no vertex is moved
+/// \return whether no element is worse then than any may be at saved places; otherwise no vertex is moved
 template <class Quality>
 bool go_back(Fitting_state<Quality>& s, const std::vector<Vertex_index>& vertices)
 {
@@ -51,7 +51,7 @@ bool go_back(Fitting_state<Quality>& s, const std::vector<Vertex_index>& vertice
   const auto is_acceptable = [&](Element_index e) {
     const Working_mesh::Element& element = s.mesh.elements[e];
     return s.mesh.is_positive(element)
-           && s.quality(element.kind, s.mesh.relative_points(element)) <= s.intermediate_bound();
+           && s.quality(element.kind, s.mesh.relative_points(element)) <= s.largest_saved_cost;
   };
   const bool is_possible = std::all_of(vertices.begin(), vertices.end(), [&](Vertex_index v) {
     return std::all_of(s.mesh.incident[v].begin(), s.mesh.incident[v].end(), is_acceptable);
@@ -115,6 +115,14 @@ std::vector<Vertex_index> go_back_until_simple(Fitting_state<Quality>& s)
     }
   }
   return crossing;
+}
+
+/// Lets faces that cut each other go back, if none did at the start, and saves where all vertices are then.
+template <class Quality>
+void undo_crossing(Fitting_state<Quality>& s)
+{
+  if(s.is_careful && go_back_until_simple(s).empty())
+    s.save_points();
 }
 
 /// Moves vertices of faces that cut each other back, because faces between vertices on the surface may meet

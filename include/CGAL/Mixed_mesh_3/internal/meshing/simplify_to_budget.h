@@ -173,7 +173,7 @@ inline bool fit_simplified_mesh(Meshing_state& s, const Simplification_limits& l
   s.result.number_of_vertices_in_region = number_of_vertices_in_region(mesh);
   if(s.is_stopped) {
     s.result.status = Mixed_mesh_status::STOPPED;
-    s.result.is_kept = !cuts_itself(mesh);
+    s.result.is_kept = s.keeps_mesh_if_stopped() && !cuts_itself(mesh);
     if(!s.result.is_kept)
       mesh.clear();
     return false;
@@ -244,7 +244,7 @@ inline void make_simplified_mesh(Meshing_state& s, bool is_cut, Core_mesh& mesh)
     is_right = simplify_in_turns(s, limits, s.budget(), fewer)
                && fit_simplified_mesh(s, limits, false, number, std::move(fewer), mesh);
   }
-  if(!is_right && !s.is_stopped) {
+  if(!is_right && (mesh.is_empty() || !s.is_stopped)) {
     s.result = result;
     fit_simplified_mesh(s, limits, true, number, std::move(m), mesh);
   }
