@@ -153,8 +153,8 @@ class Input(Case):
                    names="--control-points-after", words="is for fiducials", status=2)
 
     def test_points_that_cannot_be_used(self):
-        far = with_value(2, 2, "157")
-        self.fails_with(far, words="line 4: the control point is 8")
+        far = with_value(2, 2, "158")
+        self.fails_with(far, words="line 4: the control point is 86")
         self.fails_with(far, "--max-distance", 85, words="; --max-distance is 85 mm")
         self.fails_with(POINTS, "--max-distance", 0, words="the control point is 0.")
         twice = HEADER + ROWS[0] + "\n" + ",".join(ROWS[0].split(",")[:3]) + ",0,0,0\n"

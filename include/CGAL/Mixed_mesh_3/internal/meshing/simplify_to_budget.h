@@ -77,10 +77,10 @@ inline void fit_fine_mesh(Meshing_state& s, const Simplification_limits& limits,
                        .number_of_rounds(1);
   Core_mesh start = limits.stays_simple ? mesh : Core_mesh();
   Followed_features followed_at_start = limits.stays_simple ? followed : Followed_features();
-  optimize_bounded(
+  const Mixed_mesh_optimization_result_3 result = optimize_bounded(
     mesh, s.root.domain(), {rough, s.criteria.number_of_threads}, Aspect_ratio_quality_3(),
     [&s] { return s.go_on(); }, {0, 0, true, limits.stays_simple}, &followed);
-  if(limits.stays_simple && cuts_itself(mesh)) {
+  if(limits.stays_simple && !result.is_boundary_simple) {
     mesh = std::move(start);
     followed = std::move(followed_at_start);
   }
